@@ -1,0 +1,27 @@
+#pragma once
+/// Names of facial controls: ARKit's 52, their usual spellings, and the match between two vocabularies.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace blush {
+
+/// ARKit's blend-shape locations in their lowerCamelCase spelling ("jawOpen", "mouthSmileLeft").
+/// Source: Apple, ARFaceAnchor.BlendShapeLocation.
+extern const std::array<std::string_view, 52> arkit_names;
+
+/// One spelling for all the usual ones: "JawOpen", "jaw_open", "mouthSmile_L" and "mouthSmileLeft" give the same key.
+/// Case, '_', '-', ' ', '.' do not count, and a final side mark (L, R after a separator or a lower-case letter; left,
+/// right) becomes one form. Names that are not ARKit's are folded the same way.
+std::string canonical_name(std::string_view name);
+
+/// The entry of `names` that `name` means: the identical one first, else the only one of the same canonical form.
+std::optional<std::size_t> find_name(std::string_view name, std::span<const std::string> names);
+
+/// The entry of `names` closest in spelling, for "did you mean"; nothing when none is near.
+std::optional<std::string> nearest_name(std::string_view name, std::span<const std::string> names);
+
+}  // namespace blush
