@@ -1,6 +1,9 @@
 #pragma once
 /// Performance: keyed channels over time, and its binding to one face.
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +27,9 @@ struct Performance {
     std::vector<std::string> notes;  ///< what the reader skipped or mended ("3 dropped frames after row 120"), one sentence each
 };
 
-/// Takes one of the face's own animations, or all of them at once when `index` is empty, as a performance.
+/// Takes one of the face's own animations, or all of them at once when `index` is empty, as a performance: one channel a
+/// target, named after it. What several animations move takes the last one's track, with a note. An index that the face
+/// does not have gives a performance without channels and a note.
 Performance performance_from_animations(const Face& face, std::optional<std::size_t> index);
 
 /// A performance whose names have been resolved against a rig, once.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rig/face.h"
+#include "rig/names.h"
 
 namespace blush {
 
@@ -52,6 +53,7 @@ public:
 
 private:
     std::vector<std::string> names_;
+    NameIndex index_;
     std::vector<Transform> node_rest_;
     std::size_t target_count_ = 0;
 };

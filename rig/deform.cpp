@@ -1,0 +1,54 @@
+#include "rig/deform.h"
+
+namespace blush {
+
+void Deformer::deform(std::span<const float> weights, NormalMethod method, DeformedSurface& out) {
+    out.positions = face_.positions;
+    out.normals = face_.normals;
+    out.tangents = face_.tangents;
+    find_active(weights, active_);
+    if (active_.empty()) return;
+    add_targets(face_, active_, out.positions, out.normals, out.tangents);
+
+    for (const Primitive& primitive : face_.primitives) {
+        if (primitive.normal_source == NormalSource::rest) continue;
+        const bool recomputed = normals_recomputed(primitive, method);
+        for (std::uint32_t v = primitive.first_vertex; v < primitive.first_vertex + primitive.vertex_count; ++v) {
+            const glm::vec3 rest_normal = face_.normals[v];
+            const glm::vec4 rest_tangent = face_.tangents[v];
+            glm::vec3& normal = out.normals[v];
+            glm::vec4& tangent = out.tangents[v];
+            if (recomputed) {
+                // TANGENT deltas belong to NORMAL deltas that are not used here.
+                tangent = rest_tangent;
+                normal = turned_normal(rest_normal, topology_.rest_sums[v],
+                                       area_weighted_normal(topology_, out.positions, v));
+            } else if (normal != rest_normal) {
+                normal = normalized_or(normal, rest_normal);
+            }
+            // What no target changed keeps its bits.
+            if (normal != rest_normal || tangent != rest_tangent) {
+                tangent = orthogonal_tangent(tangent, normal, rest_tangent);
+            }
+        }
+    }
+}
+
+void skin(std::span<const glm::u16vec4> joints, std::span<const glm::vec4> joint_weights,
+          std::span<const glm::mat4> skinned_from_mesh, std::span<glm::vec3> positions, std::span<glm::vec3> normals,
+          std::span<glm::vec4> tangents) {
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const glm::vec4 weights = joint_weights[v];
+        if (weights == glm::vec4(0)) continue;
+        glm::mat4 blended(0);
+        for (glm::length_t i = 0; i < 4; ++i) {
+            if (weights[i] != 0) blended += weights[i] * skinned_from_mesh[joints[v][i]];
+        }
+        positions[v] = glm::vec3(blended * glm::vec4(positions[v], 1));
+        const glm::mat3 turn(blended);
+        normals[v] = normalized_or(turn * normals[v], normals[v]);
+        tangents[v] = orthogonal_tangent(glm::vec4(turn * glm::vec3(tangents[v]), tangents[v].w), normals[v], tangents[v]);
+    }
+}
+
+}  // namespace blush

@@ -1,0 +1,166 @@
+#include "rig/performance.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "rig/curve.h"
+
+namespace blush {
+namespace {
+
+constexpr std::uint32_t no_control = std::numeric_limits<std::uint32_t>::max();
+
+/// Component `k` of every key, as a track of its own. For a cubic spline a key has three blocks of `width`.
+Track component_track(const Track& track, std::size_t k) {
+    Track single{.interpolation = track.interpolation, .width = 1, .times_seconds = track.times_seconds, .values = {}};
+    single.values.reserve(track.values.size() / track.width);
+    for (std::size_t i = k; i < track.values.size(); i += track.width) single.values.push_back(track.values[i]);
+    return single;
+}
+
+bool same(const Track& a, const Track& b) {
+    return a.interpolation == b.interpolation && a.times_seconds == b.times_seconds && a.values == b.values;
+}
+
+std::string animation_label(const Animation& animation, std::size_t index) {
+    return animation.name.empty() ? "animation " + std::to_string(index) : "animation '" + animation.name + "'";
+}
+
+/// Collects tracks by what they move. One that comes again takes the place of the earlier one.
+class Merge {
+public:
+    explicit Merge(const Face& face) : face_(face) {}
+
+    void add(const Animation& animation, std::size_t index) {
+        replaced_ = 0;
+        for (const WeightChannel& channel : animation.weights) {
+            for (std::size_t k = 0; k < channel.targets.size(); ++k) {
+                add_weight(channel.targets[k], component_track(channel.track, k));
+            }
+        }
+        for (const NodeChannel& channel : animation.nodes) add_node(channel);
+        if (replaced_ > 0) {
+            result_.notes.push_back(animation_label(animation, index) + " replaces " + std::to_string(replaced_) +
+                                    (replaced_ == 1 ? " earlier track" : " earlier tracks") +
+                                    " of the same thing (first: " + first_replaced_ + ")");
+        }
+    }
+
+    Performance take() && {
+        for (const PerformanceChannel& channel : result_.channels) stretch(channel.track);
+        for (const NodeChannel& channel : result_.nodes) stretch(channel.track);
+        return std::move(result_);
+    }
+
+private:
+    void add_weight(std::uint32_t target, Track track) {
+        const std::string& name = face_.targets[target].name;
+        const auto [entry, added] = channel_of_target_.try_emplace(target, result_.channels.size());
+        if (added) {
+            result_.channels.push_back({.name = name, .track = std::move(track)});
+            return;
+        }
+        // Meshes that share a target repeat its curve: the same keys again are no conflict.
+        Track& earlier = result_.channels[entry->second].track;
+        if (!same(earlier, track)) count_replaced(name);
+        earlier = std::move(track);
+    }
+
+    void add_node(const NodeChannel& channel) {
+        const auto [entry, added] = channel_of_node_.try_emplace({channel.node, channel.path}, result_.nodes.size());
+        if (added) {
+            result_.nodes.push_back(channel);
+            return;
+        }
+        NodeChannel& earlier = result_.nodes[entry->second];
+        if (!same(earlier.track, channel.track)) count_replaced("node '" + face_.nodes[channel.node].name + "'");
+        earlier = channel;
+    }
+
+    void count_replaced(const std::string& what) {
+        if (replaced_++ == 0) first_replaced_ = what;
+    }
+
+    void stretch(const Track& track) {
+        result_.duration_seconds = std::max(result_.duration_seconds, track.times_seconds.back());
+    }
+
+    const Face& face_;
+    Performance result_;
+    std::unordered_map<std::uint32_t, std::size_t> channel_of_target_;
+    std::map<std::pair<std::uint32_t, NodePath>, std::size_t> channel_of_node_;
+    std::size_t replaced_ = 0;
+    std::string first_replaced_;
+};
+
+}  // namespace
+
+Performance performance_from_animations(const Face& face, std::optional<std::size_t> index) {
+    Performance result;
+    if (index && *index >= face.animations.size()) {
+        result.notes.push_back(face.path + " has no animation " + std::to_string(*index) + ", only " +
+                               std::to_string(face.animations.size()));
+        return result;
+    }
+    const std::size_t first = index.value_or(0);
+    const std::size_t end = index ? first + 1 : face.animations.size();
+    Merge merge(face);
+    for (std::size_t i = first; i < end; ++i) merge.add(face.animations[i], i);
+    result = std::move(merge).take();
+    result.name = end == first + 1 ? face.animations[first].name : "all animations";
+    return result;
+}
+
+BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : performance_(std::move(performance)) {
+    const auto names = rig.control_names();
+    std::vector<std::uint32_t> channel_of_control(names.size(), no_control);
+    for (std::size_t i = 0; i < performance_.channels.size(); ++i) {
+        const std::string& name = performance_.channels[i].name;
+        const std::optional<ControlId> control = rig.find(name);
+        control_of_channel_.push_back(control ? static_cast<std::uint32_t>(*control) : no_control);
+        if (!control) {
+            unmatched_channels_.push_back(name);
+            continue;
+        }
+        std::uint32_t& channel = channel_of_control[control_of_channel_[i]];
+        if (channel != no_control) {
+            performance_.notes.push_back("channels '" + performance_.channels[channel].name + "' and '" + name +
+                                         "' both drive '" + names[control_of_channel_[i]] + "'; the last one plays");
+            control_of_channel_[channel] = no_control;
+        }
+        channel = static_cast<std::uint32_t>(i);
+    }
+    for (std::size_t i = 0; i < rig.target_count(); ++i) {
+        if (channel_of_control[i] == no_control) undriven_targets_.push_back(names[i]);
+    }
+    // Node indices mean the face that they came from; on a smaller one those beyond its end have nothing to move.
+    const std::size_t node_count = rig.rest_pose().nodes.size();
+    const auto beyond = std::erase_if(performance_.nodes, [&](const NodeChannel& c) { return c.node >= node_count; });
+    if (beyond > 0) {
+        performance_.notes.push_back(std::to_string(beyond) + " node tracks move nodes that this face does not have");
+    }
+}
+
+void BoundPerformance::sample(float time_seconds, std::span<float> controls, Pose& pose) const {
+    for (std::size_t i = 0; i < control_of_channel_.size(); ++i) {
+        if (control_of_channel_[i] == no_control) continue;
+        assert(control_of_channel_[i] < controls.size() && "BoundPerformance::sample() takes one value a control");
+        blush::sample(performance_.channels[i].track, time_seconds, controls.subspan(control_of_channel_[i], 1));
+    }
+    for (const NodeChannel& channel : performance_.nodes) {
+        assert(channel.node < pose.nodes.size() && "BoundPerformance::sample() takes a pose of its own rig");
+        Transform& node = pose.nodes[channel.node];
+        glm::vec3& vector = channel.path == NodePath::scale ? node.scale : node.translation;
+        if (channel.path == NodePath::rotation) {
+            node.rotation = sample_rotation(channel.track, time_seconds);
+        } else {
+            blush::sample(channel.track, time_seconds, std::span<float>(&vector.x, 3));
+        }
+    }
+}
+
+}  // namespace blush

@@ -1,0 +1,54 @@
+#pragma once
+/// Normals and tangents of a deformed surface.
+///
+/// A normal that targets carry themselves is normalised after the sum. Every other normal turns with the surface: the
+/// area-weighted normal of the triangles around the vertex is taken at rest and after deformation, and the rotation from
+/// the one to the other (the shortest arc) is applied to the rest normal. So hard edges and the artist's own smoothing
+/// stay, a flat weight gives the rest normal bit for bit, and the normal is exact for rigid motion.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "rig/face.h"
+
+namespace blush {
+
+/// Which normals are turned with the surface instead of taken from NORMAL deltas.
+enum class NormalMethod : std::uint8_t {
+    authored,    ///< only where some target has no NORMAL deltas (Primitive::normal_source)
+    recomputed,  ///< everywhere that a target moves the surface
+};
+
+/// True when the normals of `primitive` are turned with the surface under `method`.
+bool normals_recomputed(const Primitive& primitive, NormalMethod method);
+
+/// The triangles around each vertex. Vertices of one primitive with the same rest position and the same rest normal
+/// (the two sides of a seam in the texture coordinates) share their triangles, so that no seam opens in the shading.
+struct NormalTopology {
+    explicit NormalTopology(const Face& face);
+
+    std::vector<std::uint32_t> first_triangle;  ///< of each vertex, and one past the last: vertices + 1 entries
+    /// The vertices (a, b, c) of each triangle around a vertex, starting with the vertex (or its copy across a seam).
+    std::vector<glm::uvec3> triangles;
+    std::vector<glm::vec3> rest_sums;  ///< area-weighted normal at rest, unnormalised; zero where no triangle has an area
+};
+
+/// Sum of the cross products of the triangles around `vertex`: twice their area times their normal.
+glm::vec3 area_weighted_normal(const NormalTopology& topology, std::span<const glm::vec3> positions,
+                               std::uint32_t vertex);
+
+/// The rest normal turned by the rotation that takes `rest_sum` to `deformed_sum` (neither need be normalised).
+/// Where either is too short to have a direction (below 1e-30 in any unit: a zero-area fan), the rest normal itself.
+/// Half a turn has no shortest arc: beyond 179.9 degrees the normal of the deformed surface is taken.
+glm::vec3 turned_normal(glm::vec3 rest_normal, glm::vec3 rest_sum, glm::vec3 deformed_sum);
+
+/// v / |v|, or `fallback` where |v|^2 is not between 1e-30 and 1e37 (no direction, or about to overflow).
+glm::vec3 normalized_or(glm::vec3 v, glm::vec3 fallback);
+
+/// The tangent made orthogonal to `normal` again; where nothing remains of it, `rest_tangent`. w is kept.
+glm::vec4 orthogonal_tangent(glm::vec4 tangent, glm::vec3 normal, glm::vec4 rest_tangent);
+
+}  // namespace blush

@@ -1,0 +1,70 @@
+#pragma once
+/// Character: a face on a device, with controls to set and a frame to draw.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "rig/face.h"
+#include "rig/result.h"
+#include "rig/rig.h"
+#include "runtime/camera.h"
+#include "runtime/device.h"
+#include "runtime/effect_settings.h"
+#include "runtime/frame_report.h"
+#include "runtime/view.h"
+
+namespace blush {
+
+struct CharacterState;
+
+class Character {
+public:
+    /// Loads a face file (runtime/face_file.h) onto the device, which must outlive the character.
+    static Result<Character> load(Device& device, const std::filesystem::path& path);
+    /// The same from a face in memory, which must satisfy validate().
+    static Result<Character> create(Device& device, Face face);
+
+    Character(Character&&) noexcept;
+    Character& operator=(Character&&) noexcept;
+    ~Character();
+
+    const Face& face() const;
+    const Rig& rig() const;
+
+    /// A control by its name or any of its usual spellings; resolve once, then set by id.
+    std::optional<ControlId> control(std::string_view name) const;
+    /// A value that is not finite counts as 0.
+    void set(ControlId control, float value);
+    /// All controls of the rig at once, to be written in place (for BoundPerformance::sample).
+    std::span<float> controls();
+    /// The pose that node animations write to; its weights and angles come from the controls at the next draw.
+    Pose& pose();
+
+    /// Status: no such effect, setting or choice.
+    Status set(std::string_view setting, std::string_view choice);
+
+    /// A camera that frames the face at rest. aspect: width / height.
+    OrbitCamera framing(float aspect) const;
+
+    /// Draws one frame into view.framebuffer and restores every GL state that it touched. The report stands until the next
+    /// draw. A view without pixels draws nothing.
+    const FrameReport& draw(const View& view);
+
+    /// Deforms (on the GPU, without drawing) and reads back: mesh-local positions, normals, tangents of every vertex.
+    struct Surface {
+        std::vector<glm::vec3> positions, normals;
+        std::vector<glm::vec4> tangents;
+    };
+    Surface read_deformed();
+
+    CharacterState& state() { return *state_; }
+
+private:
+    explicit Character(std::unique_ptr<CharacterState> state);
+    std::unique_ptr<CharacterState> state_;
+};
+
+}  // namespace blush

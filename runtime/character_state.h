@@ -1,0 +1,85 @@
+#pragma once
+/// What a Character holds: the inside that effects, passes and the frame share.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rig/head_and_eyes.h"
+#include "rig/rig.h"
+#include "runtime/device.h"
+#include "runtime/effect_settings.h"
+#include "runtime/face_model.h"
+#include "runtime/finite_check.h"
+#include "runtime/frame_graph.h"
+#include "runtime/frame_report.h"
+#include "runtime/gl/texture_pool.h"
+#include "runtime/gl/timers.h"
+#include "runtime/stream_out.h"
+#include "runtime/view.h"
+
+namespace blush {
+
+/// What the predicates of effects look at, found once a frame from the pose and the view.
+struct SceneFacts {
+    std::uint32_t active_targets = 0;
+    bool active_need_turned_normals = false;  ///< an active target moves a primitive whose normals turn
+    bool any_turned_normals = false;          ///< some target of the face does
+    bool deformation_current = false;  ///< deformed() holds what these weights and settings give
+    bool has_joints = false;
+    bool forced = false;
+};
+
+/// Resources of the frame that passes hand on to one another.
+struct FrameResources {
+    ResourceId positions{}, normals{}, tangents{};  ///< the surface as far as it has come
+    ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
+    ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{}, target{};
+};
+
+struct CharacterState {
+    CharacterState(Device& on, Face loaded) : device(&on), face(std::move(loaded)), rig(face) {}
+
+    Device* device;
+    Face face;
+    Rig rig;
+    HeadAndEyes head_and_eyes;
+    Bounds bounds;
+    std::vector<float> controls;
+    Pose pose;
+    EffectSettings settings;
+
+    std::optional<StreamOut> stream_out;  // made right after construction: it refers to `face`
+    FaceModel model;
+    std::vector<std::uint8_t> target_needs_turned_normals;  // of each target, for Primitive::normal_source recomputed
+    std::vector<std::uint8_t> target_moves_normals;         // of each target, for any primitive that it moves
+
+    // The pose that the deformed buffers hold.
+    std::vector<ActiveTarget> active, deformed_active;
+    NormalMethod normal_method = NormalMethod::authored;
+    EffectSettings deformed_settings;
+    bool deformed_valid = false;
+
+    // The frame being drawn.
+    const View* view = nullptr;
+    SceneFacts facts;
+    const SurfaceBuffers* surface = nullptr;  // the surface as far as it has come; in the end what is drawn
+    const SurfaceBuffers* skin_source = nullptr;
+    FrameGraph graph;
+    FrameResources resources;
+    std::vector<glm::mat4> world_from_node, skinned_from_mesh;
+    gl::Program face_program, tone_program;
+    gl::Framebuffer scene_framebuffer, resolved_framebuffer;
+    gl::VertexArray no_attributes;
+    gl::TexturePool textures;
+    gl::Timers timers;
+    FiniteCheck finite_check;
+    FrameReport report;
+
+    /// The surface before joints: deformed, or at rest where no target is active.
+    const SurfaceBuffers& morphed() const {
+        return facts.active_targets == 0 && !facts.forced ? stream_out->rest() : stream_out->deformed();
+    }
+};
+
+}  // namespace blush

@@ -1,0 +1,120 @@
+#include "runtime/device.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <array>
+#include <vector>
+
+#include "runtime/gl/current_context.h"
+
+namespace blush {
+
+struct Device::State {
+    DeviceInfo info;
+    EGLDisplay display = EGL_NO_DISPLAY;
+    EGLContext context = EGL_NO_CONTEXT;  // EGL_NO_CONTEXT: adopted
+    std::vector<std::string> messages;
+
+    ~State() {
+        if (context == EGL_NO_CONTEXT) return;
+        if (eglGetCurrentContext() == context) {
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        }
+        // The display is shared by every device of the process, so it is not terminated.
+        eglDestroyContext(display, context);
+    }
+};
+
+namespace {
+
+void GLAPIENTRY collect_message(GLenum /*source*/, GLenum /*type*/, GLuint /*id*/, GLenum severity, GLsizei length,
+                                const GLchar* message, const void* user) {
+    if (severity != GL_DEBUG_SEVERITY_HIGH) return;
+    auto* messages = static_cast<std::vector<std::string>*>(const_cast<void*>(user));
+    constexpr std::size_t enough = 64;  // a message a frame would otherwise grow without end
+    if (messages->size() < enough) messages->emplace_back(message, static_cast<std::size_t>(length));
+}
+
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text ? reinterpret_cast<const char*>(text) : "unknown";
+}
+
+Status read_info(DeviceInfo& info) {
+    constexpr int needed_version = 45;
+    if (!epoxy_is_desktop_gl() || epoxy_gl_version() < needed_version) {
+        return Error{"the GL context is \"" + gl_string(GL_VERSION) + "\"; blush needs OpenGL 4.5"};
+    }
+    info.renderer = gl_string(GL_RENDERER);
+    info.version = gl_string(GL_VERSION);
+    GLint vertex_blocks = 0;
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &vertex_blocks);
+    constexpr GLint needed_blocks = 6;  // shaders/deform.vert
+    if (vertex_blocks < needed_blocks) {
+        return Error{info.renderer + " offers " + std::to_string(vertex_blocks) +
+                     " storage blocks to a vertex shader; the deformation needs " + std::to_string(needed_blocks)};
+    }
+    glGetInternalformativ(GL_RENDERBUFFER, GL_RGBA16F, GL_SAMPLES, 1, &info.largest_sample_count);
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info.largest_texture_side_texels);
+    GLint64 block_bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_bytes);
+    info.largest_storage_block_bytes = static_cast<std::uint64_t>(block_bytes);
+    return Done{};
+}
+
+}  // namespace
+
+Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+Device::~Device() = default;
+
+Result<Device> Device::headless(bool debug) {
+    auto state = std::make_unique<State>();
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+        return Error{"this machine's EGL has no surfaceless platform (Debian: libegl-mesa0 and libgl1-mesa-dri)"};
+    }
+    state->display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (state->display == EGL_NO_DISPLAY || !eglInitialize(state->display, nullptr, nullptr) ||
+        !eglBindAPI(EGL_OPENGL_API)) {
+        return Error{"EGL cannot start on the surfaceless platform (Debian: libegl-mesa0 and libgl1-mesa-dri)"};
+    }
+    const std::array<EGLint, 9> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                              4,
+                                              EGL_CONTEXT_MINOR_VERSION,
+                                              5,
+                                              EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                              EGL_CONTEXT_OPENGL_DEBUG,
+                                              debug ? EGL_TRUE : EGL_FALSE,
+                                              EGL_NONE};
+    state->context = eglCreateContext(state->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    if (state->context == EGL_NO_CONTEXT) return Error{"this machine's EGL offers no OpenGL 4.5 core context"};
+    eglMakeCurrent(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context);
+    if (Status info = read_info(state->info); !info) return info.error();
+    if (debug) {
+        glEnable(GL_DEBUG_OUTPUT);
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        glDebugMessageCallback(collect_message, &state->messages);
+    }
+    return Device(std::move(state));
+}
+
+Result<Device> Device::adopt_current() {
+    if (!gl::context_is_current()) return Error{"no GL context is current on this thread"};
+    auto state = std::make_unique<State>();
+    if (Status info = read_info(state->info); !info) return info.error();
+    return Device(std::move(state));
+}
+
+const DeviceInfo& Device::info() const { return state_->info; }
+
+void Device::make_current() const {
+    if (state_->context == EGL_NO_CONTEXT || eglGetCurrentContext() == state_->context) return;
+    eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context);
+}
+
+std::span<const std::string> Device::debug_messages() const { return state_->messages; }
+
+}  // namespace blush

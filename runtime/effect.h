@@ -1,0 +1,87 @@
+#pragma once
+/// An effect is one thing with five faces, declared in one place: settings, the predicate that says whether a scene needs
+/// it, the passes that it adds, its slow exact twin, its hard cases. Nothing else in the house knows it by name: the frame
+/// walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard cases.
+/// docs/adding_an_effect.md is the checklist.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rig/face.h"
+#include "runtime/character.h"
+#include "runtime/effect_settings.h"
+#include "runtime/frame_report.h"
+#include "runtime/view.h"
+
+namespace blush {
+
+struct CharacterState;
+
+struct Setting {
+    std::string_view name;
+    std::string_view meaning;
+    std::span<const std::string_view> choices;
+    std::uint8_t default_choice = 0;
+};
+
+/// Answer of a predicate.
+struct Need {
+    bool on = false;
+    std::string_view reason;
+    Omission omission = Omission::exact;
+    double bound = 0;
+    std::string_view bound_unit = {};
+    bool can_be_forced = true;  ///< false: the face has nothing for the effect to work on
+};
+
+/// One way to compute something, to be compared with others: how long `run` takes, how far `error` says it is off.
+struct Variant {
+    std::string label;           ///< "deformation.method=sparse"
+    std::function<void()> run;   ///< complete when it returns
+    struct Error {
+        double mean = 0, worst = 0;  ///< in the study's unit
+    };
+    std::function<Error()> error;
+    std::string work;            ///< counted: "52 targets, 14 passes, 1.4 M deltas"
+    bool is_default = false;
+};
+
+/// Variants of one task on one face, with the reference that their errors are measured against.
+struct Study {
+    std::string name;       ///< "52 of 52 targets active, 26,719 vertices"
+    std::string reference;  ///< "the sum in double precision on the CPU"
+    std::string unit;       ///< "mm", "degrees", "CIEDE2000"
+    std::vector<Variant> variants;
+    std::shared_ptr<void> keeps;  ///< whatever the variants' functions refer to
+};
+
+/// A scene in which the effect might break: changes a face and its controls before they are loaded and drawn.
+struct HardCase {
+    std::string_view name;
+    std::string_view expectation;
+    void (*make)(Face& face);
+    /// Weight of every target of that face.
+    float weight = 1;
+};
+
+struct Effect {
+    std::string_view name;
+    std::string_view what;
+    std::span<const Setting> settings;
+    Need (*need)(const CharacterState&);
+    void (*declare)(CharacterState&);
+    /// `millimetres_a_unit`: scale of the face, for errors in millimetres.
+    std::vector<Study> (*studies)(Device&, const Face&, double millimetres_a_unit, bool quick);
+    std::span<const HardCase> hard_cases;
+};
+
+/// All effects, in the order in which a frame applies them.
+std::span<const Effect* const> effects();
+
+extern const Effect deformation_effect, normals_effect, skinning_effect;
+
+}  // namespace blush

@@ -1,0 +1,147 @@
+/// Deformation: blend shapes by stream-out (jimenez-2012, 7.6 and 8.3).
+
+#include <array>
+
+#include "rig/deform.h"
+#include "runtime/effects/errors.h"
+#include "runtime/effects/study_scene.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+enum Method : std::uint8_t { sparse, passes };
+constexpr std::array<std::string_view, 2> method_choices = {"sparse", "passes"};
+constexpr std::array<Setting, 1> settings = {{
+    {"method",
+     "sparse: one stream-out pass over the sparse deltas of the active targets; passes: repeated stream-out passes of "
+     "four dense targets each, as published",
+     method_choices, sparse},
+}};
+
+Need need(const CharacterState& state) {
+    if (state.facts.active_targets == 0) {
+        return {.on = false, .reason = "no target has a weight other than zero: the rest surface is drawn as it is"};
+    }
+    if (state.facts.deformation_current) {
+        return {.on = false, .reason = "weights and settings are those of an earlier frame, whose result still stands"};
+    }
+    return {.on = true, .reason = "targets have weights other than zero, and they changed"};
+}
+
+void declare(CharacterState& state) {
+    const auto deform = [&state](const FrameGraph&) {
+        state.stream_out->set_active(state.active);
+        if (state.settings.choice("deformation", "method") == passes) {
+            state.stream_out->add_targets_in_passes(state.normal_method);
+        } else {
+            state.stream_out->add_targets_sparse(state.normal_method);
+        }
+        state.report.deltas_added = state.stream_out->last_work().deltas;
+    };
+    state.graph.pass("deform", deform)
+        .writes(state.resources.positions)
+        .writes(state.resources.normals)
+        .writes(state.resources.tangents);
+}
+
+std::string work_of(StreamOut& stream_out, std::size_t active) {
+    const StreamOut::Work work = stream_out.last_work();
+    return std::to_string(active) + " targets, " + std::to_string(work.passes) +
+           (work.passes == 1 ? " pass, " : " passes, ") + std::to_string(work.deltas) + " deltas";
+}
+
+Study study_of(Device& device, const Face& face, double millimetres_a_unit, std::size_t active) {
+    std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
+    Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
+                    std::to_string(face.positions.size()) + " vertices",
+                "the sum in double precision on the CPU (rig/deform_exact.h)", "mm", {}, scene};
+    if (!scene) return study;
+
+    const auto on_gpu = [&](std::uint8_t method) {
+        Variant variant;
+        variant.label = "deformation.method=" + std::string(method_choices[method]);
+        variant.is_default = method == sparse;
+        variant.run = [scene, method] {
+            if (method == passes) {
+                scene->stream_out().add_targets_in_passes(NormalMethod::authored);
+            } else {
+                scene->stream_out().add_targets_sparse(NormalMethod::authored);
+            }
+            glFinish();
+        };
+        variant.run();
+        variant.work = work_of(scene->stream_out(), active);
+        variant.error = [scene, method, millimetres_a_unit] {
+            const Status chosen = scene->character.set("deformation.method", method_choices[method]);
+            return chosen ? distance_error<glm::dvec3>(scene->read().positions, scene->exact.positions, millimetres_a_unit)
+                          : Variant::Error{};
+        };
+        study.variants.push_back(std::move(variant));
+    };
+    on_gpu(sparse);
+    on_gpu(passes);
+
+    auto deformer = std::make_shared<Deformer>(scene->character.face());
+    auto surface = std::make_shared<DeformedSurface>();
+    Variant on_cpu;
+    on_cpu.label = "on the CPU, one thread";
+    on_cpu.work = std::to_string(active) + " targets";
+    on_cpu.run = [scene, deformer, surface] {
+        deformer->deform(scene->character.controls().first(scene->character.face().targets.size()),
+                         NormalMethod::authored, *surface);
+    };
+    on_cpu.error = [scene, surface, millimetres_a_unit] {
+        return distance_error<glm::dvec3>(surface->positions, scene->exact.positions, millimetres_a_unit);
+    };
+    study.variants.push_back(std::move(on_cpu));
+    return study;
+}
+
+std::vector<Study> studies(Device& device, const Face& face, double millimetres_a_unit, bool quick) {
+    std::vector<Study> result;
+    for (const std::size_t count : study_counts(face, quick)) {
+        result.push_back(study_of(device, face, millimetres_a_unit, count));
+    }
+    return result;
+}
+
+void leave(Face& /*face*/) {}
+
+void scale(Face& face, float factor) {
+    for (glm::vec3& position : face.positions) position *= factor;
+    for (Target& target : face.targets) {
+        for (glm::vec3& delta : target.position_deltas) delta *= factor;
+    }
+    for (Node& node : face.nodes) node.rest.translation *= factor;
+}
+
+constexpr std::array<HardCase, 8> hard_cases = {{
+    {"weight that is not a number", "counts as zero: the rest surface", leave,
+     std::numeric_limits<float>::quiet_NaN()},
+    {"infinite weight", "counts as zero: the rest surface", leave, std::numeric_limits<float>::infinity()},
+    {"weight of 1e30", "limited: every value stays finite", leave, 1e30F},
+    {"weight of -1", "the opposite move", leave, -1.0F},
+    {"smallest denormal weight", "a move too small to see", leave, std::numeric_limits<float>::denorm_min()},
+    {"head of a micrometre", "normals keep their direction", [](Face& face) { scale(face, 1e-6F); }},
+    {"head of a million units", "nothing overflows", [](Face& face) { scale(face, 1e6F); }},
+    {"target that moves nothing", "costs nothing and changes nothing",
+     [](Face& face) {
+         face.targets.push_back({});
+         face.targets.back().name = "hardNothing";
+     }},
+}};
+
+}  // namespace
+
+const Effect deformation_effect = {
+    .name = "deformation",
+    .what = "blend shapes move the surface",
+    .settings = settings,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

@@ -1,0 +1,126 @@
+/// Normals after the deformation: the targets' own NORMAL deltas, or turned with the deformed surface.
+
+#include <array>
+
+#include "runtime/effects/errors.h"
+#include "runtime/effects/study_scene.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<std::string_view, 2> source_choices = {"authored", "recomputed"};
+constexpr std::array<Setting, 1> settings = {{
+    {"source",
+     "authored: the targets' own NORMAL deltas where they have them, else turned with the deformed surface; recomputed: "
+     "turned with the deformed surface everywhere",
+     source_choices, static_cast<std::uint8_t>(NormalMethod::authored)},
+}};
+
+Need need(const CharacterState& state) {
+    if (!state.facts.any_turned_normals) {
+        return {.on = false,
+                .reason = "every target that moves the surface brings its own normals, which the deformation adds up",
+                .can_be_forced = false};
+    }
+    if (state.facts.active_targets == 0) {
+        return {.on = false, .reason = "no target has a weight other than zero: the rest normals stand"};
+    }
+    if (!state.facts.active_need_turned_normals) {
+        return {.on = false, .reason = "no active target moves a part whose normals have to be turned"};
+    }
+    if (state.facts.deformation_current) {
+        return {.on = false, .reason = "weights and settings are those of an earlier frame, whose result still stands"};
+    }
+    return {.on = true, .reason = "active targets move parts that have no normals of their own for it"};
+}
+
+void declare(CharacterState& state) {
+    const auto turn = [&state](const FrameGraph&) { state.stream_out->turn_normals(state.normal_method); };
+    state.graph.pass("turn normals", turn)
+        .reads(state.resources.positions)
+        .modifies(state.resources.normals)
+        .modifies(state.resources.tangents);
+}
+
+Study study_of(Device& device, const Face& face, std::size_t active) {
+    std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
+    Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
+                    std::to_string(face.positions.size()) + " vertices",
+                "normals recomputed on the deformed mesh in double precision (rig/deform_exact.h)", "degrees", {}, scene};
+    if (!scene) return study;
+    for (const NormalMethod method : {NormalMethod::authored, NormalMethod::recomputed}) {
+        const std::string_view choice = source_choices[static_cast<std::size_t>(method)];
+        Variant variant;
+        variant.label = "normals.source=" + std::string(choice);
+        variant.is_default = method == NormalMethod::authored;
+        const bool turns = method == NormalMethod::recomputed ||
+                           std::ranges::any_of(face.primitives, [](const Primitive& primitive) {
+                               return primitive.normal_source == NormalSource::recomputed;
+                           });
+        variant.work = turns ? "deformation, and the fan of every moved vertex" : "deformation with normal deltas";
+        variant.run = [scene, method, turns] {
+            scene->stream_out().add_targets_sparse(method);
+            if (turns) scene->stream_out().turn_normals(method);
+            glFinish();
+        };
+        variant.error = [scene, choice] {
+            const Status chosen = scene->character.set("normals.source", choice);
+            return chosen ? angle_error(scene->read().normals, scene->exact.normals) : Variant::Error{};
+        };
+        study.variants.push_back(std::move(variant));
+    }
+    return study;
+}
+
+std::vector<Study> studies(Device& device, const Face& face, double /*millimetres_a_unit*/, bool quick) {
+    std::vector<Study> result;
+    for (const std::size_t count : study_counts(face, quick)) result.push_back(study_of(device, face, count));
+    return result;
+}
+
+/// Adds a target that moves every vertex to centre + factor * (vertex - centre), without NORMAL deltas.
+void add_scaling_target(Face& face, glm::vec3 factor) {
+    Bounds bounds;
+    for (const glm::vec3 position : face.positions) bounds.add(position);
+    const glm::vec3 centre = bounds.centre();
+    Target target;
+    target.name = "hardScale";
+    for (std::uint32_t v = 0; v < face.positions.size(); ++v) {
+        target.vertices.push_back(v);
+        target.position_deltas.push_back((factor - 1.0F) * (face.positions[v] - centre));
+    }
+    face.targets = {std::move(target)};
+    for (Primitive& primitive : face.primitives) primitive.normal_source = NormalSource::recomputed;
+}
+
+constexpr std::array<HardCase, 5> hard_cases = {{
+    {"surface collapsed to a point", "no fan has a direction: the rest normals",
+     [](Face& face) { add_scaling_target(face, glm::vec3(0)); }},
+    {"surface flattened to a plane", "every normal along the plane's", [](Face& face) { add_scaling_target(face, {1, 1, 0}); }},
+    {"surface turned inside out", "normals of the mirrored surface", [](Face& face) { add_scaling_target(face, glm::vec3(-1)); }},
+    {"triangles without area", "they add nothing to any normal",
+     [](Face& face) {
+         for (std::size_t i = 0; i + 2 < face.indices.size(); i += 6) face.indices[i + 1] = face.indices[i];
+         add_scaling_target(face, {1, 2, 1});
+     }},
+    {"vertices that no triangle uses", "they keep their rest normals",
+     [](Face& face) {
+         add_scaling_target(face, {2, 1, 1});
+         for (Primitive& primitive : face.primitives) primitive.index_count = primitive.index_count / 6 * 3;
+     }},
+}};
+
+}  // namespace
+
+const Effect normals_effect = {
+    .name = "normals",
+    .what = "normals follow the deformed surface",
+    .settings = settings,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

@@ -1,0 +1,196 @@
+#include "runtime/face_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/gl/shared_blocks.h"
+
+namespace blush {
+namespace {
+
+/// Stride of blocks of `bytes` in one buffer, as the driver wants uniform blocks aligned.
+std::size_t block_stride(std::size_t bytes) {
+    GLint alignment = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    const auto step = static_cast<std::size_t>(alignment);
+    return (bytes + step - 1) / step * step;
+}
+
+template <class Value>
+std::vector<Value> four_channels(const std::vector<Value>& values, std::uint32_t channels, Value opaque) {
+    const std::size_t pixels = values.size() / channels;
+    std::vector<Value> rgba(pixels * 4, opaque);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        const Value* in = &values[p * channels];
+        Value* out = &rgba[p * 4];
+        const bool grey = channels <= 2;
+        for (std::uint32_t c = 0; c < 3; ++c) out[c] = grey ? in[0] : in[c];
+        if (channels == 2) out[3] = in[1];
+        if (channels == 4) out[3] = in[3];
+    }
+    return rgba;
+}
+
+float linear_from_srgb(float v) {  // IEC 61966-2-1
+    return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F);
+}
+
+Result<gl::Texture> make_image_texture(const Image& image, bool srgb, int largest_side) {
+    if (image.width > static_cast<std::uint32_t>(largest_side) ||
+        image.height > static_cast<std::uint32_t>(largest_side)) {
+        return Error{"image \"" + image.name + "\" is " + std::to_string(image.width) + "x" +
+                     std::to_string(image.height) + " pixels; this device takes " + std::to_string(largest_side)};
+    }
+    gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
+    const auto width = static_cast<GLsizei>(image.width), height = static_cast<GLsizei>(image.height);
+    const int levels = 1 + static_cast<int>(std::floor(std::log2(std::max({width, height, 1}))));
+    const bool bytes = !image.bytes.empty();
+    const GLenum format = !bytes ? GL_RGBA16F : srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    glTextureStorage2D(texture.name(), levels, format, width, height);
+    if (bytes) {
+        const auto rgba = four_channels(image.bytes, image.channels, std::uint8_t{255});
+        glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    } else {
+        auto rgba = four_channels(image.floats, image.channels, 1.0F);
+        for (std::size_t i = 0; srgb && i < rgba.size(); ++i) {
+            if (i % 4 != 3) rgba[i] = linear_from_srgb(rgba[i]);
+        }
+        glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
+    }
+    glGenerateTextureMipmap(texture.name());
+    return texture;
+}
+
+std::array<const TextureUse*, 5> textures_of(const Material& m) {
+    return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb};
+}
+
+constexpr std::array<bool, 5> texture_is_srgb = {true, false, false, false, true};
+
+shared::MaterialBlock block_of(const Material& m) {
+    shared::MaterialBlock block{};
+    block.base_color_linear = m.base_color_linear;
+    block.emissive_linear = glm::vec4(m.emissive_linear, 0);
+    block.metallic_roughness_normal_occlusion =
+        glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion.image >= 0 ? m.occlusion_strength : 0);
+    block.alpha = glm::vec4(m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0F,
+                            m.alpha_mode == AlphaMode::blend ? 0 : 1, 0, 0);
+    const auto uses = textures_of(m);
+    for (std::size_t t = 0; t < uses.size(); ++t) {
+        const glm::mat3 rows = glm::transpose(uses[t]->uv_transform);
+        block.uv_rows[2 * t] = glm::vec4(rows[0], 0);
+        block.uv_rows[2 * t + 1] = glm::vec4(rows[1], 0);
+    }
+    const auto set = [&](std::size_t t) { return static_cast<int>(uses[t]->uv_set); };
+    block.uv_sets = glm::ivec4(set(0), set(1), set(2), set(3));
+    block.emissive_uv_set = glm::ivec4(set(4), m.normal.image >= 0 ? 1 : 0, 0, 0);
+    return block;
+}
+
+Material default_material() {
+    Material material;
+    material.metallic = 0;  // glTF's default of 1 is a mirror without surroundings: black
+    return material;
+}
+
+}  // namespace
+
+Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_texels) {
+    FaceModel model;
+    model.indices = gl::make_buffer<std::uint32_t>(face.indices);
+    model.uv0 = gl::make_buffer<glm::vec2>(face.uv0);
+    model.uv1 = gl::make_buffer<glm::vec2>(face.uv1);
+
+    model.vertex_array = gl::make_vertex_array();
+    const GLuint array = model.vertex_array.name();
+    const auto attribute = [array](GLuint location, GLint components) {
+        glEnableVertexArrayAttrib(array, location);
+        glVertexArrayAttribFormat(array, location, components, GL_FLOAT, GL_FALSE, 0);
+        glVertexArrayAttribBinding(array, location, location);
+    };
+    attribute(BLUSH_POSITION_ATTRIBUTE, 3);
+    attribute(BLUSH_NORMAL_ATTRIBUTE, 3);
+    attribute(BLUSH_TANGENT_ATTRIBUTE, 4);
+    attribute(BLUSH_UV0_ATTRIBUTE, 2);
+    attribute(BLUSH_UV1_ATTRIBUTE, 2);
+    glVertexArrayVertexBuffer(array, BLUSH_UV0_ATTRIBUTE, model.uv0.name(), 0, sizeof(glm::vec2));
+    glVertexArrayVertexBuffer(array, BLUSH_UV1_ATTRIBUTE, model.uv1.name(), 0, sizeof(glm::vec2));
+    glVertexArrayElementBuffer(array, model.indices.name());
+
+    model.material_stride = block_stride(sizeof(shared::MaterialBlock));
+    std::vector<std::byte> blocks(model.material_stride * (face.materials.size() + 1));
+    const auto write_material = [&](std::size_t index, const Material& material) {
+        const shared::MaterialBlock block = block_of(material);
+        std::memcpy(&blocks[index * model.material_stride], &block, sizeof(block));
+    };
+    for (std::size_t m = 0; m < face.materials.size(); ++m) write_material(m, face.materials[m]);
+    write_material(face.materials.size(), default_material());
+    model.material_blocks = gl::make_buffer<std::byte>(blocks);
+
+    model.frame_block = gl::make_buffer(sizeof(shared::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    model.draw_stride = block_stride(sizeof(shared::DrawBlock));
+    model.draw_staging.resize(model.draw_stride * (face.nodes.size() + 1));
+    model.draw_blocks = gl::make_buffer(model.draw_staging.size(), nullptr, GL_DYNAMIC_STORAGE_BIT);
+
+    model.srgb_textures.resize(face.images.size());
+    model.linear_textures.resize(face.images.size());
+    for (const Material& material : face.materials) {
+        const auto uses = textures_of(material);
+        for (std::size_t t = 0; t < uses.size(); ++t) {
+            if (uses[t]->image < 0) continue;
+            const auto image = static_cast<std::size_t>(uses[t]->image);
+            gl::Texture& slot = texture_is_srgb[t] ? model.srgb_textures[image] : model.linear_textures[image];
+            if (slot) continue;
+            Result<gl::Texture> made =
+                make_image_texture(face.images[image], texture_is_srgb[t], largest_texture_side_texels);
+            if (!made) return Error{face.path + ": " + made.error().message};
+            slot = *std::move(made);
+        }
+    }
+    model.white = gl::make_texture(GL_TEXTURE_2D);
+    const std::array<std::uint8_t, 4> white_pixel = {255, 255, 255, 255};
+    glTextureStorage2D(model.white.name(), 1, GL_RGBA8, 1, 1);
+    glTextureSubImage2D(model.white.name(), 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, white_pixel.data());
+
+    for (std::size_t s = 0; s < model.samplers.size(); ++s) {
+        model.samplers[s] = gl::make_sampler();
+        const GLuint name = model.samplers[s].name();
+        glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glSamplerParameteri(name, GL_TEXTURE_WRAP_S, (s & 1) != 0 ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+        glSamplerParameteri(name, GL_TEXTURE_WRAP_T, (s & 2) != 0 ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    }
+    return model;
+}
+
+void FaceModel::bind_surface(const SurfaceBuffers& surface) const {
+    const GLuint array = vertex_array.name();
+    glVertexArrayVertexBuffer(array, BLUSH_POSITION_ATTRIBUTE, surface.positions.name(), 0, sizeof(glm::vec3));
+    glVertexArrayVertexBuffer(array, BLUSH_NORMAL_ATTRIBUTE, surface.normals.name(), 0, sizeof(glm::vec3));
+    glVertexArrayVertexBuffer(array, BLUSH_TANGENT_ATTRIBUTE, surface.tangents.name(), 0, sizeof(glm::vec4));
+    glBindVertexArray(array);
+}
+
+void FaceModel::bind_material(const Face& face, std::int32_t material) const {
+    const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : face.materials.size();
+    glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_MATERIAL_BINDING, material_blocks.name(),
+                      static_cast<GLintptr>(index * material_stride), sizeof(shared::MaterialBlock));
+    static const Material plain = default_material();
+    const auto uses = textures_of(material >= 0 ? face.materials[index] : plain);
+    for (GLuint t = 0; t < uses.size(); ++t) {
+        const TextureUse& use = *uses[t];
+        const auto image = static_cast<std::size_t>(use.image);
+        const gl::Texture& texture =
+            use.image < 0 ? white : texture_is_srgb[t] ? srgb_textures[image] : linear_textures[image];
+        glBindTextureUnit(BLUSH_BASE_COLOR_UNIT + t, texture.name());
+        glBindSampler(BLUSH_BASE_COLOR_UNIT + t, samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
+    }
+}
+
+void FaceModel::bind_draw(std::size_t index) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_DRAW_BINDING, draw_blocks.name(),
+                      static_cast<GLintptr>(index * draw_stride), sizeof(shared::DrawBlock));
+}
+
+}  // namespace blush

@@ -1,0 +1,138 @@
+#include "runtime/frame.h"
+
+#include <algorithm>
+
+#include "runtime/effect.h"
+
+namespace blush {
+namespace {
+
+void find_facts(CharacterState& state, const View& view) {
+    find_active(state.pose.weights, state.active);
+    state.facts = {};
+    state.facts.active_targets = static_cast<std::uint32_t>(state.active.size());
+    state.facts.has_joints = !state.face.joints.empty();
+    state.facts.forced = view.force_effects;
+
+    const NormalMethod method =
+        static_cast<NormalMethod>(state.settings.choice(normals_effect.name, normals_effect.settings[0].name));
+    const auto& needs =
+        method == NormalMethod::authored ? state.target_needs_turned_normals : state.target_moves_normals;
+    state.facts.any_turned_normals = std::ranges::any_of(needs, [](std::uint8_t need) { return need != 0; });
+    state.facts.active_need_turned_normals =
+        std::ranges::any_of(state.active, [&](const ActiveTarget& entry) { return needs[entry.target] != 0; });
+
+    const bool same_settings = state.deformed_settings == state.settings;
+    state.facts.deformation_current =
+        state.deformed_valid && same_settings && state.active == state.deformed_active;
+    state.normal_method = method;
+}
+
+/// Effects that run must leave the same picture as effects that were left out; what they leave is remembered here.
+void remember_deformation(CharacterState& state) {
+    if (state.facts.active_targets == 0 && !state.facts.forced) return;  // the rest surface was used as it is
+    state.deformed_active = state.active;
+    state.deformed_settings = state.settings;
+    state.deformed_valid = true;
+}
+
+void import_surface(CharacterState& state) {
+    const SurfaceBuffers& surface = *state.surface;
+    const auto count = static_cast<std::uint32_t>(state.face.positions.size());
+    state.resources.positions = state.graph.import_buffer("surface positions", surface.positions.name(), 3, count);
+    state.resources.normals = state.graph.import_buffer("surface normals", surface.normals.name(), 3, count);
+    state.resources.tangents = state.graph.import_buffer("surface tangents", surface.tangents.name(), 4, count);
+    state.resources.morphed_positions = state.resources.positions;
+    state.resources.morphed_normals = state.resources.normals;
+    state.resources.morphed_tangents = state.resources.tangents;
+}
+
+void run(CharacterState& state, const View& view) {
+    state.graph.compile();
+    state.report.passes.clear();
+    state.report.not_finite.reset();
+    state.timers.clear();
+    const auto before = [&state, &view](const FrameGraph&, const FramePass&) {
+        if (view.timed) state.timers.start();
+    };
+    const auto after = [&state, &view](const FrameGraph& graph, const FramePass& pass) {
+        if (view.timed) state.timers.stop();
+        if (view.check_finite && !state.report.not_finite) state.report.not_finite = state.finite_check.scan(graph, pass);
+    };
+    state.graph.execute(state.textures, before, after);
+
+    std::size_t timer = 0;
+    for (const FramePass& pass : state.graph.passes()) {
+        const double milliseconds = view.timed && pass.live ? state.timers.milliseconds(timer++) : 0;
+        state.report.passes.push_back({pass.name, pass.live, milliseconds});
+    }
+}
+
+}  // namespace
+
+void begin_frame(CharacterState& state, const View& view) {
+    state.view = &view;
+    state.rig.evaluate(state.controls, state.pose);
+    find_facts(state, view);
+    world_from_nodes(state.face, state.pose, state.head_and_eyes, state.world_from_node);
+    skinned_from_meshes(state.face, state.world_from_node, state.skinned_from_mesh);
+    state.report.active = state.active;
+    state.report.deltas_added = 0;
+    state.report.triangles_drawn = 0;
+    state.graph.clear();
+}
+
+void declare_effects(CharacterState& state) {
+    state.surface = &state.morphed();
+    import_surface(state);
+
+    state.report.effects.clear();
+    for (const Effect* effect : effects()) {
+        const Need need = effect->need(state);
+        const bool on = need.on || (state.facts.forced && need.can_be_forced);
+        const std::string_view reason = on && !need.on ? "forced on" : need.reason;
+        state.report.effects.push_back({effect->name, on, reason, need.omission, need.bound, need.bound_unit});
+        if (on) effect->declare(state);
+    }
+}
+
+void draw_frame(CharacterState& state, const View& view) {
+    begin_frame(state, view);
+    declare_effects(state);
+
+    const auto samples = static_cast<std::uint32_t>(
+        std::clamp(static_cast<int>(view.samples), 1, std::max(1, state.device->info().largest_sample_count)));
+    TextureShape color{PixelFormat::rgba16f, view.width, view.height, samples};
+    TextureShape depth = color;
+    depth.format = PixelFormat::depth32f;
+    state.resources.scene_color_multisampled = state.graph.texture("scene colour, multisampled", color);
+    state.resources.scene_depth = state.graph.texture("scene depth", depth);
+    color.samples = 1;
+    state.resources.scene_color = samples > 1 ? state.graph.texture("scene colour", color)
+                                              : state.resources.scene_color_multisampled;
+    state.resources.target = state.graph.import_framebuffer("view", view.framebuffer, color);
+
+    declare_shade(state);
+    if (samples > 1) declare_resolve(state);
+    if (view.output == Output::display_srgb) {
+        declare_tone(state);
+    } else {
+        declare_copy(state);
+    }
+    state.graph.present(state.resources.target);
+    run(state, view);
+    remember_deformation(state);
+}
+
+void deform_only(CharacterState& state) {
+    static const View no_view;
+    begin_frame(state, no_view);
+    declare_effects(state);
+    state.graph.present(state.resources.morphed_positions);
+    state.graph.present(state.resources.morphed_normals);
+    state.graph.present(state.resources.morphed_tangents);
+    run(state, no_view);
+    remember_deformation(state);
+}
+
+}  // namespace blush

@@ -1,0 +1,166 @@
+#include "runtime/gl/program.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "runtime/gl/shared_blocks.h"
+#include "shaders/embedded.h"
+
+namespace blush::gl {
+namespace {
+
+std::optional<std::string_view> shader_text(std::string_view file) {
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+        if (shader.name == file) return shader.text;
+    }
+    return std::nullopt;
+}
+
+Status expand_into(std::string_view file, std::set<std::string_view>& seen, std::string& out) {
+    const auto text = shader_text(file);
+    if (!text) return Error{"shader " + std::string(file) + " is not in the library"};
+    constexpr std::string_view directive = "#include \"";
+    std::size_t line_number = 0;
+    std::size_t at = 0;
+    while (at < text->size()) {
+        ++line_number;
+        const std::size_t end = std::min(text->find('\n', at), text->size());
+        const std::string_view line = text->substr(at, end - at);
+        at = end + 1;
+        if (!line.starts_with(directive)) {
+            out.append(line).append("\n");
+            continue;
+        }
+        const std::string_view name = line.substr(directive.size(), line.rfind('"') - directive.size());
+        if (!seen.insert(name).second) continue;
+        out += "#line 1\n";
+        if (Status included = expand_into(name, seen, out); !included) return included;
+        out += "#line " + std::to_string(line_number + 1) + "\n";
+    }
+    return Done{};
+}
+
+Result<GLuint> compile(GLenum stage, std::string_view file, std::span<const std::string_view> defines) {
+    const Result<std::string> text = expand_shader(file, defines);
+    if (!text) return text.error();
+    const GLuint shader = glCreateShader(stage);
+    const char* source = text->c_str();
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok == GL_TRUE) return shader;
+    std::array<char, 4096> log{};
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    glDeleteShader(shader);
+    return Error{"shader " + std::string(file) + " does not compile: " + log.data()};
+}
+
+struct Field {
+    const char* name;
+    std::size_t offset;
+};
+struct Block {
+    const char* name;
+    std::size_t bytes;
+    std::vector<Field> fields;
+};
+
+const std::vector<Block>& shared_blocks() {
+    using namespace shared;
+    static const std::vector<Block> blocks = {
+        {"FrameBlock",
+         sizeof(FrameBlock),
+         {{"clip_from_world", offsetof(FrameBlock, clip_from_world)},
+          {"camera_world", offsetof(FrameBlock, camera_world)},
+          {"lights[0].direction_world", offsetof(FrameBlock, lights)},
+          {"lights[0].radiance_linear", offsetof(FrameBlock, lights) + offsetof(Light, radiance_linear)},
+          {"lights[1].direction_world", offsetof(FrameBlock, lights) + sizeof(Light)},
+          {"sky_radiance_linear", offsetof(FrameBlock, sky_radiance_linear)},
+          {"ground_radiance_linear", offsetof(FrameBlock, ground_radiance_linear)}}},
+        {"DrawBlock",
+         sizeof(DrawBlock),
+         {{"world_from_mesh", offsetof(DrawBlock, world_from_mesh)},
+          {"world_normal_from_mesh", offsetof(DrawBlock, world_normal_from_mesh)}}},
+        {"MaterialBlock",
+         sizeof(MaterialBlock),
+         {{"base_color_linear", offsetof(MaterialBlock, base_color_linear)},
+          {"emissive_linear", offsetof(MaterialBlock, emissive_linear)},
+          {"metallic_roughness_normal_occlusion", offsetof(MaterialBlock, metallic_roughness_normal_occlusion)},
+          {"alpha", offsetof(MaterialBlock, alpha)},
+          {"uv_rows[0]", offsetof(MaterialBlock, uv_rows)},
+          {"uv_sets", offsetof(MaterialBlock, uv_sets)},
+          {"emissive_uv_set", offsetof(MaterialBlock, emissive_uv_set)}}},
+    };
+    return blocks;
+}
+
+Status check_blocks(GLuint program, std::string_view file) {
+    for (const Block& block : shared_blocks()) {
+        const GLuint index = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, block.name);
+        if (index == GL_INVALID_INDEX) continue;
+        GLint bytes = 0;
+        glGetActiveUniformBlockiv(program, index, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
+        if (static_cast<std::size_t>(bytes) != block.bytes) {
+            return Error{"shader " + std::string(file) + ": block " + block.name + " has " + std::to_string(bytes) +
+                         " bytes in the driver and " + std::to_string(block.bytes) + " in C++"};
+        }
+        for (const Field& field : block.fields) {
+            const GLuint uniform = glGetProgramResourceIndex(program, GL_UNIFORM, field.name);
+            if (uniform == GL_INVALID_INDEX) continue;  // the driver may drop a field that the shader does not read
+            const GLenum property = GL_OFFSET;
+            GLint offset = -1;
+            glGetProgramResourceiv(program, GL_UNIFORM, uniform, 1, &property, 1, nullptr, &offset);
+            if (static_cast<std::size_t>(offset) != field.offset) {
+                return Error{"shader " + std::string(file) + ": " + block.name + "." + field.name + " stands at byte " +
+                             std::to_string(offset) + " in the driver and " + std::to_string(field.offset) + " in C++"};
+            }
+        }
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Result<std::string> expand_shader(std::string_view file, std::span<const std::string_view> defines) {
+    std::string out = "#version 450 core\n";
+    for (const std::string_view define : defines) out.append("#define ").append(define).append("\n");
+    out += "#define BLUSH_UNIFORM_BLOCK(Name, Binding) layout(std140, binding = Binding) uniform Name\n#line 1\n";
+    std::set<std::string_view> seen;
+    if (Status expanded = expand_into(file, seen, out); !expanded) return expanded.error();
+    return out;
+}
+
+Result<Program> make_program(const ProgramSource& source) {
+    Program program(glCreateProgram());
+    const auto attach = [&](GLenum stage, std::string_view file) -> Status {
+        const Result<GLuint> shader = compile(stage, file, source.defines);
+        if (!shader) return shader.error();
+        glAttachShader(program.name(), *shader);
+        glDeleteShader(*shader);  // deleted with the program
+        return Done{};
+    };
+    if (Status vertex = attach(GL_VERTEX_SHADER, source.vertex); !vertex) return vertex.error();
+    if (!source.fragment.empty()) {
+        if (Status fragment = attach(GL_FRAGMENT_SHADER, source.fragment); !fragment) return fragment.error();
+    }
+    if (!source.streamed_out.empty()) {
+        glTransformFeedbackVaryings(program.name(), static_cast<GLsizei>(source.streamed_out.size()),
+                                    source.streamed_out.data(), GL_SEPARATE_ATTRIBS);
+    }
+    glLinkProgram(program.name());
+    GLint ok = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE) {
+        std::array<char, 4096> log{};
+        glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+        return Error{"program of " + std::string(source.vertex) + " does not link: " + log.data()};
+    }
+    if (Status blocks = check_blocks(program.name(), source.vertex); !blocks) return blocks.error();
+    return program;
+}
+
+}  // namespace blush::gl

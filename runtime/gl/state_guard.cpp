@@ -1,0 +1,146 @@
+#include "runtime/gl/state_guard.h"
+
+namespace blush::gl {
+namespace {
+
+constexpr std::array<GLenum, 4> pack_names = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
+                                              GL_PACK_SKIP_PIXELS};
+constexpr std::array<GLenum, 4> unpack_names = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
+                                                GL_UNPACK_SKIP_PIXELS};
+constexpr std::array<GLenum, 6> blend_names = {GL_BLEND_SRC_RGB,   GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,
+                                               GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
+
+GLint integer(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+void set(GLenum name, GLboolean on) {
+    if (on != GL_FALSE) {
+        glEnable(name);
+    } else {
+        glDisable(name);
+    }
+}
+
+GLuint name_of(GLint value) { return static_cast<GLuint>(value); }
+GLenum enum_of(GLint value) { return static_cast<GLenum>(value); }
+
+}  // namespace
+
+StateGuard::Binding StateGuard::indexed_binding(GLenum binding, GLenum start, GLenum size, GLuint index) {
+    Binding found;
+    glGetIntegeri_v(binding, index, &found.name);
+    glGetInteger64i_v(start, index, &found.offset);
+    glGetInteger64i_v(size, index, &found.bytes);
+    return found;
+}
+
+void StateGuard::restore(GLenum target, GLuint index, const Binding& binding) {
+    if (binding.bytes == 0) {
+        glBindBufferBase(target, index, name_of(binding.name));
+    } else {
+        glBindBufferRange(target, index, name_of(binding.name), static_cast<GLintptr>(binding.offset),
+                          static_cast<GLsizeiptr>(binding.bytes));
+    }
+}
+
+StateGuard::StateGuard() {
+    for (std::size_t i = 0; i < switches.size(); ++i) enabled_[i] = glIsEnabled(switches[i]);
+    active_unit_ = integer(GL_ACTIVE_TEXTURE);
+    for (GLuint unit = 0; unit < texture_units; ++unit) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        textures_[unit] = integer(GL_TEXTURE_BINDING_2D);
+        samplers_[unit] = integer(GL_SAMPLER_BINDING);
+    }
+    glActiveTexture(enum_of(active_unit_));
+    for (GLuint i = 0; i < uniform_bindings; ++i) {
+        uniform_blocks_[i] =
+            indexed_binding(GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, i);
+    }
+    for (GLuint i = 0; i < storage_bindings; ++i) {
+        storage_blocks_[i] = indexed_binding(GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+                                             GL_SHADER_STORAGE_BUFFER_SIZE, i);
+    }
+    uniform_buffer_ = integer(GL_UNIFORM_BUFFER_BINDING);
+    storage_buffer_ = integer(GL_SHADER_STORAGE_BUFFER_BINDING);
+    pack_buffer_ = integer(GL_PIXEL_PACK_BUFFER_BINDING);
+    unpack_buffer_ = integer(GL_PIXEL_UNPACK_BUFFER_BINDING);
+    program_ = integer(GL_CURRENT_PROGRAM);
+    vertex_array_ = integer(GL_VERTEX_ARRAY_BINDING);
+    draw_framebuffer_ = integer(GL_DRAW_FRAMEBUFFER_BINDING);
+    read_framebuffer_ = integer(GL_READ_FRAMEBUFFER_BINDING);
+    feedback_ = integer(GL_TRANSFORM_FEEDBACK_BINDING);
+    glGetIntegerv(GL_VIEWPORT, viewport_.data());
+    for (std::size_t i = 0; i < pack_names.size(); ++i) {
+        pack_[i] = integer(pack_names[i]);
+        unpack_[i] = integer(unpack_names[i]);
+    }
+    for (std::size_t i = 0; i < blend_names.size(); ++i) blend_[i] = integer(blend_names[i]);
+    clip_control_ = {integer(GL_CLIP_ORIGIN), integer(GL_CLIP_DEPTH_MODE)};
+    glGetIntegerv(GL_POLYGON_MODE, polygon_mode_.data());
+    depth_function_ = integer(GL_DEPTH_FUNC);
+    cull_face_ = integer(GL_CULL_FACE_MODE);
+    front_face_ = integer(GL_FRONT_FACE);
+    glGetBooleanv(GL_COLOR_WRITEMASK, color_mask_.data());
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
+    glGetDoublev(GL_DEPTH_RANGE, depth_range_.data());
+
+    // The state that every pass starts from.
+    for (const GLenum name : switches) glDisable(name);
+    glEnable(GL_MULTISAMPLE);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    for (std::size_t i = 0; i < pack_names.size(); ++i) {
+        glPixelStorei(pack_names[i], i == 0 ? 1 : 0);
+        glPixelStorei(unpack_names[i], i == 0 ? 1 : 0);
+    }
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glDepthFunc(GL_LESS);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glDepthRange(0, 1);
+    for (GLuint unit = 0; unit < texture_units; ++unit) glBindSampler(unit, 0);
+}
+
+StateGuard::~StateGuard() {
+    for (std::size_t i = 0; i < switches.size(); ++i) set(switches[i], enabled_[i]);
+    for (GLuint unit = 0; unit < texture_units; ++unit) {
+        glActiveTexture(GL_TEXTURE0 + unit);  // glBindTextureUnit with 0 would clear the unit's other targets too
+        glBindTexture(GL_TEXTURE_2D, name_of(textures_[unit]));
+        glBindSampler(unit, name_of(samplers_[unit]));
+    }
+    glActiveTexture(enum_of(active_unit_));
+    for (GLuint i = 0; i < uniform_bindings; ++i) restore(GL_UNIFORM_BUFFER, i, uniform_blocks_[i]);
+    for (GLuint i = 0; i < storage_bindings; ++i) restore(GL_SHADER_STORAGE_BUFFER, i, storage_blocks_[i]);
+    glBindBuffer(GL_UNIFORM_BUFFER, name_of(uniform_buffer_));
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, name_of(storage_buffer_));
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, name_of(pack_buffer_));
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, name_of(unpack_buffer_));
+    glUseProgram(name_of(program_));
+    glBindVertexArray(name_of(vertex_array_));
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name_of(draw_framebuffer_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, name_of(read_framebuffer_));
+    glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, name_of(feedback_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+    for (std::size_t i = 0; i < pack_names.size(); ++i) {
+        glPixelStorei(pack_names[i], pack_[i]);
+        glPixelStorei(unpack_names[i], unpack_[i]);
+    }
+    glBlendFuncSeparate(enum_of(blend_[0]), enum_of(blend_[1]), enum_of(blend_[2]), enum_of(blend_[3]));
+    glBlendEquationSeparate(enum_of(blend_[4]), enum_of(blend_[5]));
+    glClipControl(enum_of(clip_control_[0]), enum_of(clip_control_[1]));
+    glPolygonMode(GL_FRONT_AND_BACK, enum_of(polygon_mode_[0]));
+    glDepthFunc(enum_of(depth_function_));
+    glCullFace(enum_of(cull_face_));
+    glFrontFace(enum_of(front_face_));
+    glColorMask(color_mask_[0], color_mask_[1], color_mask_[2], color_mask_[3]);
+    glDepthMask(depth_mask_);
+    glDepthRange(depth_range_[0], depth_range_[1]);
+}
+
+}  // namespace blush::gl

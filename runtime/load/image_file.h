@@ -1,0 +1,21 @@
+#pragma once
+/// Encoded images to pixels, through OpenImageIO.
+
+#include <optional>
+#include <string>
+
+#include "rig/face.h"
+#include "runtime/load/bytes.h"
+
+namespace blush::load {
+
+/// True for KTX 2 (Basis Universal) files, which no decoder here reads.
+bool is_ktx2(ByteView encoded);
+
+/// Decodes PNG, JPEG, WebP, Radiance HDR or OpenEXR, told apart by their first bytes. Colour values stay as the file
+/// has them: no conversion between sRGB and linear, no multiplication by alpha. The sides and the number of pixels
+/// (`pixel_bytes_left`, from which the image's size is taken) are checked before pixels are allocated. Throws BadFile.
+Image decode_image(ByteView encoded, std::uint32_t side_limit_pixels, std::uint64_t& pixel_bytes_left,
+                   const std::string& place);
+
+}  // namespace blush::load

@@ -1,0 +1,29 @@
+// From linear radiance to display: exposure, the filmic curve and the sRGB transfer function.
+#include "shared.glsl"
+
+in vec2 screen_uv;
+layout(binding = BLUSH_SCENE_COLOR_UNIT) uniform sampler2D scene_color;
+layout(location = 0) uniform float exposure;
+layout(location = 0) out vec4 display_srgb;
+
+// Filmic curve of Hable (2010), as jimenez-2012, 8.3, uses it: shoulder 0.15, linear strength 0.50, linear angle 0.10,
+// toe strength 0.20, toe numerator 0.02, toe denominator 0.30.
+vec3 filmic(vec3 x) {
+    return (x * (0.15 * x + 0.10 * 0.50) + 0.20 * 0.02) / (x * (0.15 * x + 0.50) + 0.20 * 0.30) - 0.02 / 0.30;
+}
+// Scene radiance that the curve maps to white (Hable 2010).
+const float white = 11.2;
+// Hable's exposure bias: the curve is darker than linear by about this in the middle greys.
+const float exposure_bias = 2.0;
+
+// IEC 61966-2-1.
+vec3 srgb_from_linear(vec3 c) {
+    c = clamp(c, 0.0, 1.0);
+    return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+}
+
+void main() {
+    vec4 scene = texelFetch(scene_color, ivec2(gl_FragCoord.xy), 0);
+    vec3 mapped = filmic(exposure_bias * exposure * max(scene.rgb, vec3(0.0))) / filmic(vec3(white));
+    display_srgb = vec4(srgb_from_linear(mapped), scene.a);
+}
