@@ -1,0 +1,88 @@
+#include "tools/make_face/ear.h"
+
+#include "tools/make_face/head_shape.h"
+
+namespace blush::make_face {
+namespace {
+
+/// A place on the ear in its own plane: a to the front of the face, b up, c away from the head; millimetres.
+struct Profile {
+    double s, height;
+};
+
+/// Radius of the outline at `angle` (0 to the front, a right angle up). Farkas 1994: length 62 mm, breadth 35 mm.
+double outline(double angle) {
+    const double a = std::cos(angle), b = std::sin(angle);
+    const double half_length = b > 0 ? 32 : 30;
+    const double half_breadth = b > 0 ? 18.5 : mix(18.5, 11.5, smooth_step(0, 0.9, -b));
+    return 1 / std::sqrt(square(a / half_breadth) + square(b / half_length));
+}
+
+/// Height of the front side over the ear's plane at the fraction s of the outline.
+double front_height(double s, double angle) {
+    const double a = std::cos(angle), b = std::sin(angle);
+    const double lobe = smooth_step(-0.45, -0.85, b);
+    const double rear = smooth_step(0.55, -0.1, a);
+    const double concha = 1.5 * smooth_step(0.15, 0.5, s);
+    const double antihelix = 5.2 * bell(s - 0.63, 0.13) * rear;
+    const double helix = 6.0 * bell(s - 0.95, 0.10) * mix(0.55, 1, smooth_step(0.95, 0.2, a));
+    const double tragus = 5.0 * bell(s - 0.55, 0.2) * bell(angle > pi ? angle - 2 * pi : angle, 0.45);
+    const double canal = -7 * bell(s, 0.16);
+    const double folds = concha + antihelix + helix + tragus + canal;
+    const double plain = 1.5 + 2.5 * bell(s - 0.7, 0.35);
+    return mix(folds, s < 0.4 ? folds : plain, lobe);
+}
+
+}  // namespace
+
+void add_left_ear(Mesh& mesh, double fineness, const Vec2& uv_corner, double uv_side) {
+    const int angles = static_cast<int>(std::lround(44 * fineness));
+    const int front_rings = static_cast<int>(std::lround(19 * fineness));
+    const int back_rings = static_cast<int>(std::lround(7 * fineness));
+
+    // The plane leans: its rear stands off the head by 28 degrees and its top leans back by 14.
+    const Vec3 base = leave_head({0, landmark::ear_centre.y, landmark::ear_centre.z}, {1, 0, 0});
+    const double stand = radians(28), lean = radians(14);
+    const Vec3 forward(-std::sin(stand), 0, std::cos(stand)), out(std::cos(stand), 0, std::sin(stand));
+    const Vec3 along = forward * std::cos(lean) + Vec3(0, 1, 0) * std::sin(lean);
+    const Vec3 up = Vec3(0, 1, 0) * std::cos(lean) - forward * std::sin(lean);
+    const auto place = [&](double a, double b, double c) {
+        return base + Vec3(4.5, 0, -7) + along * a + up * b + out * c;
+    };
+    const auto texture = [&](double s, double angle) {
+        return uv_corner + uv_side * (Vec2(0.5) + 0.5 * s * Vec2(std::cos(angle), -std::sin(angle)));
+    };
+
+    const double uv_reach = 1.45;  // front rings take s in 0..1, the back goes on to this
+    const Index centre = mesh.add(place(0, 0, front_height(0, 0)), texture(0, 0));
+    const auto ring_start = [&](int ring) { return centre + 1 + static_cast<Index>((ring - 1) * angles); };
+    for (int ring = 1; ring <= front_rings + back_rings; ++ring) {
+        for (int k = 0; k < angles; ++k) {
+            const double angle = 2 * pi * k / angles;
+            const double r = outline(angle);
+            // The canal sits in front of the middle, so rings start off-centre and grow concentric with the outline.
+            if (ring <= front_rings) {
+                const double s = static_cast<double>(ring) / front_rings;
+                const double shift = 5.0 * (1 - s * s);
+                mesh.add(place(s * r * std::cos(angle) + shift, s * r * std::sin(angle) - 0.4 * shift,
+                               front_height(s, angle)),
+                         texture(s / uv_reach, angle));
+            } else {
+                const double t = static_cast<double>(ring - front_rings) / back_rings;
+                const double s = 1 + 0.035 * std::sin(pi * std::min(1.0, t * 2.2)) - 0.55 * t * t;
+                const double edge = front_height(1, angle);
+                mesh.add(place(s * r * std::cos(angle) * mix(1, 0.9, t), s * r * std::sin(angle),
+                               edge - 3.2 * std::pow(t, 0.6) - 12 * t * t * t),
+                         texture((1 + (uv_reach - 1) * t) / uv_reach, angle));
+            }
+        }
+    }
+    for (int k = 0; k < angles; ++k) {
+        const auto at = [&](int ring, int j) { return ring_start(ring) + static_cast<Index>(j % angles); };
+        mesh.triangles.push_back({centre, at(1, k + 1), at(1, k)});
+        for (int ring = 1; ring < front_rings + back_rings; ++ring)
+            mesh.add_quad(at(ring, k), at(ring, k + 1), at(ring + 1, k + 1), at(ring + 1, k));
+    }
+}
+
+}  // namespace blush::make_face

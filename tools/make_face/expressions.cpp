@@ -1,0 +1,343 @@
+#include "tools/make_face/expressions.h"
+
+#include <functional>
+
+#include "tools/make_face/head_shape.h"
+#include "tools/make_face/lids.h"
+#include "tools/make_face/mouth_parts.h"
+
+namespace blush::make_face {
+namespace {
+
+using namespace landmark;
+
+/// A muscle's pull: a soft region of skin that moves as one, strongest at its centre.
+struct Pull {
+    Vec3 centre, widths, move;
+    enum Lips { both, upper, lower } lips = both;
+};
+using Pulls = std::vector<Pull>;
+
+constexpr Vec3 mouth_corner{25.5, -69, 82};
+
+Pulls operator*(Pulls pulls, double strength) {
+    for (Pull& pull : pulls) pull.move *= strength;
+    return pulls;
+}
+Pulls both_sides(const Pulls& left) {
+    Pulls all = left;
+    for (const Pull& pull : left) all.push_back({mirrored(pull.centre), pull.widths, mirrored(pull.move), pull.lips});
+    return all;
+}
+
+/// 1 on what belongs to the upper lip and above, 0 below; a step at the slit, a soft slope beside the mouth's corner.
+double upper_share(const Vec3& p, int lip, double softness) {
+    const double slope = smooth_step(-softness, softness, p.y - lip_line_y(p.x));
+    const double local = 1 - std::pow(std::min(1.0, std::abs(p.x) / mouth_corner_x), 3);
+    const double near_lips = local * smooth_step(50, 70, p.z);
+    return mix(slope, lip > 0 ? 1 : lip < 0 ? 0 : 0.5, near_lips);
+}
+
+/// The mandible's hold on the skin: 1 on the chin and the lower lip, 0 on the upper face, the nape and the neck's end.
+double jaw_share(const Vec3& p, int lip) {
+    const Vec3 corner(0, stomion_y, 82);
+    const Vec3 line = glm::normalize(corner - jaw_hinge);
+    const double below = -(p.y - jaw_hinge.y) * line.z + (p.z - jaw_hinge.z) * line.y;
+    const double slope = smooth_step(-17, 22, below);
+    const double local = 1 - std::pow(std::min(1.0, std::abs(p.x) / mouth_corner_x), 2.5);
+    const double side = lip > 0 ? 0 : lip < 0 ? 1 : slope;
+    const double share = mix(slope, side, local * smooth_step(50, 70, p.z));
+    return share * smooth_step(-14, 26, p.z) * smooth_step(-158, -112, p.y - 0.25 * p.z);
+}
+
+class HeadModel {
+public:
+    explicit HeadModel(const Head& head) : head_(head), lids_(head) {
+        const std::size_t n = head.mesh.positions.size();
+        jaw_.resize(n);
+        for (Index v = 0; v < n; ++v) {
+            const VertexTag& tag = head.tags[v];
+            if (tag.part == Part::ear) continue;
+            const double at_edge = jaw_share(rest(tag.edge), head.tags[tag.edge].lip);
+            jaw_[v] = tag.part == Part::mouth_lining ? mix(at_edge, 0.5, smooth_step(0.75, 1, tag.depth))
+                                                     : jaw_share(rest(v), tag.lip);
+        }
+    }
+
+    std::vector<ShapeTarget> all() {
+        const Pulls smile = {{mouth_corner, {19, 14, 20}, {7.0, 6.6, -4.5}},
+                             {{10, -64, 92}, {12, 9, 16}, {0.6, 0.8, -0.8}},
+                             {{35, -38, 62}, {15, 12, 18}, {1.5, 5.0, 3.2}},
+                             {{23, -52, 82}, {6, 10, 12}, {2.0, 2.0, -0.6}},
+                             {{31, -17, 74}, {15, 6, 12}, {0, 1.6, 0.6}}};
+        const Pulls frown = {{mouth_corner, {13, 12, 16}, {1.5, -7.5, -1.5}},
+                             {{17, -84, 84}, {12, 9, 14}, {0, -2.0, 1.0}}};
+        const Pulls dimple = {{mouth_corner, {11, 11, 15}, {5.0, 1.2, -5.0}},
+                              {{38, -66, 68}, {10, 13, 14}, {2, 0.5, 1.6}}};
+        const Pulls stretch = {{mouth_corner, {15, 13, 18}, {8.5, -3.0, -5.5}},
+                               {{30, -92, 66}, {15, 14, 18}, {3, -3, -1}}};
+        const Pulls upper_up = {{{10, -63, 94}, {11, 9, 14}, {0.6, 5.4, 0.8}, Pull::upper},
+                                {{14, -45, 92}, {9, 8, 12}, {0.8, 2.0, 0.5}},
+                                {{24, -48, 80}, {8, 10, 12}, {1.2, 2.4, 1.2}}};
+        const Pulls lower_down = {{{11, -74, 92},
+                                   {11, 9, 14},
+                                   {
+                                       1.2,
+                                       -5.8,
+                                       0.6,
+                                   },
+                                   Pull::lower},
+                                  {{14, -86, 86}, {12, 8, 12}, {0.5, -2.2, 0.4}}};
+        const Pulls sneer = {{{10, -28, 94}, {8, 11, 14}, {0.4, 4.4, 0.6}},
+                             {{14, -42, 94}, {7, 8, 11}, {1.2, 4.2, 0.2}},
+                             {{12, -62, 94}, {9, 8, 12}, {0.4, 2.2, 0.4}, Pull::upper},
+                             {{14, -8, 82}, {8, 7, 10}, {-0.6, 1.2, 1.4}}};
+        const Pulls cheek_raise = {{{35, -26, 70}, {16, 12, 16}, {0.2, 5.0, 3.0}},
+                                   {{33, -15, 75}, {14, 5, 10}, {0, 2.6, 0.8}}};
+        const Pulls cheek_puff = {{{38, -62, 62}, {16, 17, 24}, {9.5, 0.4, 7.0}},
+                                  {{18, -58, 88}, {12, 8, 14}, {0.5, 0, 2.2}},
+                                  {{18, -82, 85}, {12, 8, 14}, {0.5, 0, 2.4}},
+                                  {{24, -69, 84}, {7, 8, 12}, {-1.2, 0, 0.6}}};
+        const Pulls brow_down = {{{14, 18, 88}, {13, 9, 14}, {-2.6, -5.6, 1.4}},
+                                 {{32, 21, 78}, {15, 9, 16}, {-0.8, -4.6, 0.6}},
+                                 {{34, 9, 80}, {15, 5, 12}, {0, -1.6, 0.6}}};
+        const Pulls brow_inner_up = {{{10, 20, 90}, {13, 11, 16}, {0.6, 7.0, 0.2}},
+                                     {{9, 42, 88}, {20, 14, 18}, {0, 3.0, 0.4}}};
+        const Pulls brow_outer_up = {{{38, 22, 72}, {15, 11, 18}, {0.6, 7.0, -0.6}},
+                                     {{36, 42, 72}, {18, 14, 20}, {0, 3.0, 0.2}},
+                                     {{36, 11, 78}, {14, 5, 12}, {0, 1.8, 0}}};
+        const Pulls press = {{{14, -63, 92}, {12, 5.5, 14}, {0.4, -1.3, -1.0}, Pull::upper},
+                             {{14, -74, 91}, {12, 5.5, 14}, {0.4, 1.5, -1.0}, Pull::lower},
+                             {mouth_corner, {9, 9, 12}, {1.0, 0.4, -2.2}}};
+        const Pulls pucker = {{mouth_corner, {14, 15, 18}, {-11.0, 0.3, 5.5}},
+                              {{12, -68, 92}, {9, 11, 14}, {-3.4, 0, 4.0}},
+                              {{0, -64, 95}, {11, 6, 14}, {0, 0.3, 3.2}, Pull::upper},
+                              {{0, -75, 93}, {11, 7, 14}, {0, -0.3, 3.4}, Pull::lower}};
+        const Pulls funnel = {{mouth_corner, {13, 14, 18}, {-7.5, 0, 5.0}},
+                              {{13, -62, 93}, {11, 9, 14}, {-1.6, 3.6, 3.4}, Pull::upper},
+                              {{0, -62, 95}, {9, 8, 14}, {0, 1.2, 2.2}, Pull::upper},
+                              {{13, -76, 91}, {11, 9, 14}, {-1.6, -4.4, 3.6}, Pull::lower},
+                              {{0, -77, 92}, {9, 8, 14}, {0, -1.4, 2.2}, Pull::lower}};
+        const Pulls roll_upper = {{{0, -63, 95}, {20, 6.5, 14}, {0, -2.6, -3.6}, Pull::upper}};
+        const Pulls roll_lower = {{{0, -75, 93}, {20, 7, 14}, {0, 2.8, -3.8}, Pull::lower}};
+        const Pulls shrug_upper = {{{0, -63, 95}, {17, 9, 14}, {0, 3.6, 1.6}, Pull::upper},
+                                   {{0, -70, 94}, {18, 10, 14}, {0, 2.2, 0.6}}};
+        const Pulls shrug_lower = {{{0, -76, 92}, {18, 9, 14}, {0, 2.4, 3.4}, Pull::lower},
+                                   {{0, -94, 88}, {18, 13, 16}, {0, 4.6, 1.4}},
+                                   {{0, -69, 94}, {20, 9, 14}, {0, 1.8, 0.8}}};
+        const Pulls mouth_left = {{{8, -68, 90}, {26, 17, 22}, {8.5, 0.4, -0.6}},
+                                  {{-26, -69, 80}, {16, 16, 20}, {2.2, 0, 2.0}},
+                                  {{10, -92, 86}, {18, 12, 16}, {2.0, 0, 0}}};
+
+        add_sides("browDown", [&](Index v) { return pulled(v, brow_down); });
+        add_whole("browInnerUp", [&](Index v) { return pulled(v, both_sides(brow_inner_up)); });
+        add_sides("browOuterUp", [&](Index v) { return pulled(v, brow_outer_up); });
+        add_whole("cheekPuff", [&](Index v) { return pulled(v, both_sides(cheek_puff)); });
+        add_sides("cheekSquint", [&](Index v) { return pulled(v, cheek_raise); });
+        add_sides("eyeBlink", [&](Index v) { return lids_.move(v, {.close = 1}); });
+        add_sides("eyeLookDown", [&](Index v) { return lids_.move(v, {.upper_degrees = -13, .lower_degrees = -6}); });
+        add_sides("eyeLookIn", [&](Index v) { return lids_.move(v, {.sideways_mm = -0.7}); });
+        add_sides("eyeLookOut", [&](Index v) { return lids_.move(v, {.sideways_mm = 0.7}); });
+        add_sides("eyeLookUp", [&](Index v) { return lids_.move(v, {.upper_degrees = 9, .lower_degrees = 3.5}); });
+        add_sides("eyeSquint", [&](Index v) {
+            return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12}) + pulled(v, cheek_raise * 0.35);
+        });
+        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 12, .lower_degrees = -3}); });
+        add_whole("jawForward", [&](Index v) { return jaw_[v] * Vec3(0, -0.6, 6); });
+        add_sides("jaw", [&](Index v) { return jaw_[v] * Vec3(7, 0, 0); });
+        add_whole("jawOpen", [&](Index v) { return jaw_opened(rest(v), jaw_[v]) - rest(v); });
+        add_whole("mouthClose", [&](Index v) { return mouth_closing(v); });
+        add_sides("mouthDimple", [&](Index v) { return pulled(v, dimple); });
+        add_sides("mouthFrown", [&](Index v) { return pulled(v, frown); });
+        add_whole("mouthFunnel", [&](Index v) { return pulled(v, both_sides(funnel)); });
+        add_sides("mouth", [&](Index v) { return pulled(v, mouth_left); });
+        add_sides("mouthLowerDown", [&](Index v) { return pulled(v, lower_down); });
+        add_sides("mouthPress", [&](Index v) { return pulled(v, press); });
+        add_whole("mouthPucker", [&](Index v) { return pulled(v, both_sides(pucker)); });
+        add_whole("mouthRollLower", [&](Index v) { return pulled(v, roll_lower); });
+        add_whole("mouthRollUpper", [&](Index v) { return pulled(v, roll_upper); });
+        add_whole("mouthShrugLower", [&](Index v) { return pulled(v, shrug_lower); });
+        add_whole("mouthShrugUpper", [&](Index v) { return pulled(v, shrug_upper); });
+        add_sides("mouthSmile", [&](Index v) { return pulled(v, smile); });
+        add_sides("mouthStretch", [&](Index v) { return pulled(v, stretch); });
+        add_sides("mouthUpperUp", [&](Index v) { return pulled(v, upper_up); });
+        add_sides("noseSneer", [&](Index v) { return pulled(v, sneer); });
+        return std::move(targets_);
+    }
+
+private:
+    using Move = std::function<Vec3(Index)>;
+
+    const Vec3& rest(Index v) const { return head_.mesh.positions[v]; }
+
+    Vec3 pulled(Index v, const Pulls& pulls) const {
+        const VertexTag& tag = head_.tags[v];
+        if (tag.part == Part::ear) return Vec3(0);
+        const bool lining = tag.part == Part::mouth_lining;
+        // A lining goes with the edge that it hangs on, less and less inward; the eyes' linings stay with the lids.
+        const Vec3 p = tag.part == Part::skin ? rest(v) : rest(tag.edge);
+        const int lip = lining ? head_.tags[tag.edge].lip : tag.lip;
+        const double hold = lining ? smooth_step(0.75, 0.1, tag.depth) : 1;
+        Vec3 sum(0);
+        for (const Pull& pull : pulls) {
+            double strength = bell(p, pull.centre, pull.widths) * hold;
+            if (strength < 1e-4) continue;
+            if (pull.lips == Pull::upper) strength *= upper_share(p, lip, 7);
+            if (pull.lips == Pull::lower) strength *= 1 - upper_share(p, lip, 7);
+            sum += strength * pull.move;
+        }
+        return sum;
+    }
+
+    /// With jawOpen at 1 this brings the lips' edges together again: each goes its share of the gap that the jaw
+    /// opened.
+    Vec3 mouth_closing(Index v) const {
+        constexpr double upper_part = 0.3;
+        const VertexTag& tag = head_.tags[v];
+        if (tag.part == Part::ear) return Vec3(0);
+        const Vec3& p = rest(tag.part == Part::mouth_lining ? tag.edge : v);
+        const int lip = head_.tags[tag.part == Part::mouth_lining ? tag.edge : v].lip;
+        const double x = std::abs(p.x);
+        const auto& upper = head_.upper_lip;
+        std::size_t k = 0;
+        while (k + 2 < upper.size() && rest(upper[k + 1]).x < x) ++k;
+        const double span = rest(upper[k + 1]).x - rest(upper[k]).x;
+        const double t = std::clamp((x - rest(upper[k]).x) / span, 0.0, 1.0);
+        const auto gap_at = [&](std::size_t n) {
+            const Vec3& edge = rest(upper[n]);
+            return jaw_opened(edge, jaw_[head_.lower_lip[n]]) - jaw_opened(edge, jaw_[upper[n]]);
+        };
+        Vec3 gap = glm::mix(gap_at(k), gap_at(k + 1), t);
+        gap.x = 0;
+        const double off = p.y - lip_line_y(p.x);
+        const double hold = tag.part == Part::mouth_lining ? smooth_step(0.9, 0.2, tag.depth) : 1;
+        const double front = smooth_step(50, 72, p.z) * hold;
+        if (lip > 0) return gap * (upper_part * square(std::max(0.0, 1 - off / 24)) * front);
+        if (lip < 0) return -gap * ((1 - upper_part) * square(std::max(0.0, 1 + off / 34)) * front);
+        return Vec3(0);
+    }
+
+    void add(const std::string& name, std::vector<Vec3> deltas) {
+        lids_.keep_off_eyes(deltas);
+        if (name == "eyeBlinkLeft") lids_.join_edges(deltas);
+        ShapeTarget target;
+        target.name = name;
+        target.position_deltas = std::move(deltas);
+        std::vector<Vec3> moved(head_.mesh.positions);
+        for (Index v = 0; v < moved.size(); ++v) moved[v] += target.position_deltas[v];
+        target.normal_deltas = head_normals(head_, moved);
+        for (Index v = 0; v < moved.size(); ++v) target.normal_deltas[v] -= head_.mesh.normals[v];
+        targets_.push_back(std::move(target));
+    }
+
+    std::vector<Vec3> evaluate(const Move& move) const {
+        std::vector<Vec3> deltas(head_.mesh.positions.size());
+        for (Index v = 0; v < deltas.size(); ++v) deltas[v] = move(v);
+        return deltas;
+    }
+
+    /// A shape of both halves at once: the left half is computed, the right one copied.
+    void add_whole(const std::string& name, const Move& move) {
+        std::vector<Vec3> deltas = evaluate(move);
+        symmetrise(deltas);
+        add(name, std::move(deltas));
+        ShapeTarget& target = targets_.back();
+        symmetrise(target.position_deltas);
+        symmetrise(target.normal_deltas);
+    }
+    void symmetrise(std::vector<Vec3>& deltas) const {
+        for (Index v = 0; v < deltas.size(); ++v) {
+            if (head_.image[v] == v) deltas[v].x = 0;
+            if (rest(v).x < 0 || (rest(v).x == 0 && head_.image[v] < v)) deltas[v] = mirrored(deltas[head_.image[v]]);
+        }
+    }
+
+    /// A shape of one side and its mirror image.
+    void add_sides(const std::string& name, const Move& left) {
+        add(name + "Left", evaluate(left));
+        const ShapeTarget& target = targets_.back();
+        ShapeTarget right = target;
+        right.name = name + "Right";
+        for (Index v = 0; v < head_.image.size(); ++v) {
+            right.position_deltas[v] = mirrored(target.position_deltas[head_.image[v]]);
+            right.normal_deltas[v] = mirrored(target.normal_deltas[head_.image[v]]);
+        }
+        targets_.push_back(std::move(right));
+    }
+
+    const Head& head_;
+    Lids lids_;
+    std::vector<double> jaw_;
+    std::vector<ShapeTarget> targets_;
+};
+
+}  // namespace
+
+Vec3 jaw_opened(const Vec3& p, double share) {
+    const double angle = jaw_open_angle * share;
+    const Vec3 arm = p - jaw_hinge;
+    return jaw_hinge + Vec3(arm.x, arm.y * std::cos(angle) - arm.z * std::sin(angle),
+                            arm.y * std::sin(angle) + arm.z * std::cos(angle));
+}
+
+std::vector<ShapeTarget> head_targets(const Head& head) { return HeadModel(head).all(); }
+
+namespace {
+template <class Move>
+ShapeTarget rigid_target(const Mesh& mesh, const std::string& name, Move move) {
+    ShapeTarget target;
+    target.name = name;
+    Mesh moved = mesh;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const Vec3 delta = move(mesh.positions[v]);
+        target.position_deltas.push_back(delta);
+        moved.positions[v] += delta;
+    }
+    target.normal_deltas = smooth_normals(moved);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) target.normal_deltas[v] -= mesh.normals[v];
+    return target;
+}
+}  // namespace
+
+std::vector<ShapeTarget> mandible_targets(const Mesh& mesh) {
+    return {rigid_target(mesh, "jawForward", [](const Vec3&) { return Vec3(0, -0.6, 6); }),
+            rigid_target(mesh, "jawLeft", [](const Vec3&) { return Vec3(7, 0, 0); }),
+            rigid_target(mesh, "jawOpen", [](const Vec3& p) { return jaw_opened(p, 1) - p; }),
+            rigid_target(mesh, "jawRight", [](const Vec3&) { return Vec3(-7, 0, 0); })};
+}
+
+std::vector<ShapeTarget> tongue_targets(const Mesh& tongue) {
+    std::vector<ShapeTarget> targets = mandible_targets(tongue);
+    targets.push_back(rigid_target(tongue, "tongueOut", [](const Vec3& p) { return tongue_out(p); }));
+    return targets;
+}
+
+std::vector<ShapeTarget> lash_targets(const Lashes& lashes, const Head& head, const std::vector<ShapeTarget>& all) {
+    std::vector<ShapeTarget> targets;
+    const Lids lids(head);
+    for (const ShapeTarget& source : all) {
+        ShapeTarget target;
+        target.name = source.name;
+        bool moves = false;
+        for (std::size_t v = 0; v < lashes.edge.size(); ++v) {
+            const Index edge = lashes.edge[v];
+            const Vec3 delta = source.position_deltas[edge];
+            const Vec3 p = lashes.mesh.positions[v];
+            // A lash turns as its root turns about the eye.
+            const Vec3 moved = lids.carried(head.mesh.positions[edge], delta, p);
+            target.position_deltas.push_back(moved - p);
+            target.normal_deltas.push_back(Vec3(0));
+            moves = moves || glm::length(delta) > 0.01;
+        }
+        if (!moves) continue;
+        Mesh deformed = lashes.mesh;
+        for (std::size_t v = 0; v < lashes.edge.size(); ++v) deformed.positions[v] += target.position_deltas[v];
+        const std::vector<Vec3> normals = smooth_normals(deformed);
+        for (std::size_t v = 0; v < lashes.edge.size(); ++v)
+            target.normal_deltas[v] = normals[v] - lashes.mesh.normals[v];
+        targets.push_back(std::move(target));
+    }
+    return targets;
+}
+
+}  // namespace blush::make_face

@@ -1,0 +1,71 @@
+#include "tools/make_face/hair.h"
+
+#include "tools/make_face/head_shape.h"
+
+namespace blush::make_face {
+namespace {
+
+/// Height of the hairline at an azimuth in degrees (0 in front, 90 at the ear, 180 behind), millimetres: trichion,
+/// temple, sideburn, over the ear, nape.
+double hairline(double azimuth_degrees) {
+    struct Knot {
+        double azimuth, y;
+    };
+    constexpr Knot knots[] = {{0, 73},   {14, 74},   {27, 70},   {38, 60},   {48, 52},  {58, 44},
+                              {66, 26},  {72, 0},    {77, -18},  {86, -16},  {90, 10},  {96, 22},
+                              {106, 16}, {113, -14}, {120, -52}, {140, -70}, {180, -76}};
+    for (std::size_t k = 1; k < std::size(knots); ++k) {
+        if (azimuth_degrees > knots[k].azimuth) continue;
+        const double t = (azimuth_degrees - knots[k - 1].azimuth) / (knots[k].azimuth - knots[k - 1].azimuth);
+        return mix(knots[k - 1].y, knots[k].y, smooth_step(0, 1, t));
+    }
+    return std::end(knots)[-1].y;
+}
+
+/// Coordinates along and across the strands, which run from the whorl at the crown's back.
+struct Strand {
+    double along, across;
+};
+Strand strand(const Vec3& p) {
+    const Vec3 whorl = glm::normalize(Vec3(0.12, 0.80, -0.62));
+    const Vec3 side = glm::normalize(glm::cross(whorl, Vec3(0, 0, 1))), other = glm::cross(whorl, side);
+    const Vec3 d = glm::normalize(p - Vec3(0, 20, -5));
+    const double along = std::acos(std::clamp(glm::dot(d, whorl), -1.0, 1.0));
+    return {along, std::atan2(glm::dot(d, side), glm::dot(d, other)) + 0.35 * along};
+}
+
+}  // namespace
+
+double hair_cover(const Vec3& p) {
+    const double azimuth = std::atan2(std::abs(p.x), p.z + 5) * 180 / pi;
+    const double ragged = 1.6 * fractal_noise(p / 3.5, 2);
+    const double line = hairline(azimuth);
+    return smooth_step(line - 2, line + 9, p.y + ragged);
+}
+
+void grow_hair(Head& head) {
+    for (Index v = 0; v < head.mesh.positions.size(); ++v) {
+        Vec3& p = head.mesh.positions[v];
+        if (head.tags[v].part != Part::skin || p.x < 0 || head.image[v] < v) continue;
+        const double cover = hair_cover(p);
+        if (cover <= 0) continue;
+        const double length = mix(2.0, 7.0, smooth_step(20, 85, p.y));
+        const Strand s = strand({std::abs(p.x), p.y, p.z});
+        const double tuft = noise({std::cos(s.across) * 7, std::sin(s.across) * 7, s.along * 2.5});
+        const bool middle = p.x == 0;
+        p += head.mesh.normals[v] * (cover * length * (1 + 0.22 * tuft));
+        if (middle) p.x = 0;
+        if (head.image[v] != v) head.mesh.positions[head.image[v]] = mirrored(p);
+    }
+    head.mesh.normals = head_normals(head, head.mesh.positions);
+}
+
+Vec3 hair_color(const Vec3& p) {
+    const Strand s = strand(p);
+    const double a = std::cos(s.across), b = std::sin(s.across);
+    const double fine = noise({a * 110, b * 110, s.along * 5}), broad = noise({a * 26, b * 26, s.along * 3.2});
+    const double light = 0.62 + 0.30 * fine + 0.22 * broad;
+    return glm::mix(Vec3(0.115, 0.070, 0.050), Vec3(0.315, 0.205, 0.145), std::clamp(light, 0.0, 1.0));
+}
+
+}  // namespace blush::make_face

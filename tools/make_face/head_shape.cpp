@@ -1,0 +1,154 @@
+#include "tools/make_face/head_shape.h"
+
+namespace blush::make_face {
+namespace {
+
+/// Quilez 2008, "Modeling with distance functions": first-order distance to an ellipsoid.
+double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radii) {
+    const Vec3 q = (p - centre) / radii;
+    const double k0 = glm::length(q);
+    const double k1 = glm::length(q / radii);
+    return k1 > 0 ? k0 * (k0 - 1) / k1 : -std::min({radii.x, radii.y, radii.z});
+}
+
+/// Segment a-b with a radius that goes from ra to rb.
+double cone(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
+    const Vec3 ab = b - a;
+    const double t = std::clamp(glm::dot(p - a, ab) / glm::dot(ab, ab), 0.0, 1.0);
+    return glm::length(p - a - ab * t) - mix(ra, rb, t);
+}
+
+/// Quadratic smooth minimum: both are rounded together within k of each other.
+double join(double a, double b, double k) {
+    const double h = std::max(k - std::abs(a - b), 0.0) / k;
+    return std::min(a, b) - h * h * k / 4;
+}
+
+double carve(double a, double hollow, double k) { return -join(-a, hollow, k); }
+
+double skull(const Vec3& p) {
+    double d = ellipsoid(p, {0, 36, -8}, {74, 78, 88});
+    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);         // frontal bone
+    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);        // midface
+    d = join(d, ellipsoid(p, {46, -23, 50}, {20, 13, 22}), 18);       // zygomatic bone
+    d = join(d, cone(p, {39, -68, 8}, {11, -99, 71}, 12, 12.5), 22);  // body of the mandible
+    d = join(d, cone(p, {46, -30, 0}, {39, -66, 8}, 12, 12), 20);     // its ramus
+    d = join(d, ellipsoid(p, {0, -78, 32}, {42, 30, 44}), 20);        // floor of the mouth
+    d = join(d, ellipsoid(p, {0, -100, 74}, {17, 13, 17}), 14);       // chin
+    d = join(d, ellipsoid(p, {0, -55, -42}, {44, 44, 40}), 18);       // nape
+    const Vec3 neck{p.x, p.y, p.z * 0.96};
+    return join(d, cone(neck, {0, -80, -24}, {0, -205, -36}, 48, 56), 16);
+}
+
+double soft_tissue(const Vec3& p, double d) {
+    d = join(d, ellipsoid(p, {31, -48, 51}, {24.5, 28, 27}), 18);  // cheek
+    d = join(d, ellipsoid(p, {0, -66, 60}, {32, 26, 32.5}), 14);   // over the dental arch
+    d = join(d,
+             join(cone(p, {0, 17.5, 83.5}, {23, 20, 79}, 8.5, 8.5), cone(p, {23, 20, 79}, {43, 19, 64}, 8.5, 7.5), 4),
+             12);                                                  // brow
+    d = carve(d, ellipsoid(p, {31, -3, 88}, {20, 13, 17}), 11);    // orbit
+    d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);  // infraorbital rim
+    return d;
+}
+
+double lids(const Vec3& p, double d) {
+    const double radius = landmark::eye_radius + landmark::lid_thickness;
+    d = join(d, ellipsoid(p, landmark::eye_centre + Vec3(0, 5.5, -1.5), {17, 13, 15.5}), 5);  // fold over the upper lid
+    const double softness = mix(5, 1.8, smooth_step(-5, 4, p.y));  // the upper lid has a crease, the lower one none
+    d = join(d, glm::length(p - landmark::eye_centre) - radius, softness);
+    d = join(d, glm::length(p - Vec3(17, -3, 75)) - 4, 5);  // inner canthus
+    return d;
+}
+
+double nose(const Vec3& p, double d) {
+    double n = cone(p, {0, 6, 85}, {0, -34, 103}, 4.8, 6.5);           // bridge
+    n = join(n, cone(p, {2.5, -2, 79}, {8.5, -36, 90}, 6, 7.5), 9);    // its sides
+    n = join(n, ellipsoid(p, {0, -36.5, 105.5}, {8.6, 8.4, 8.8}), 7);  // tip
+    n = join(n, ellipsoid(p, {11, -40.5, 95.5}, {5.6, 6.4, 8.6}), 5);  // wing
+    n = join(n, cone(p, {0, -43, 107}, {0, -47, 96}, 3.0, 3.4), 4);    // columella
+    d = join(d, n, 7);
+    return carve(d, ellipsoid(p, {6.2, -47, 99.5}, {3.1, 7.0, 5.4}), 2.5);
+}
+
+double mouth(const Vec3& p, double d) {
+    // Vermilion of the upper lip: highest at the two peaks of the cupid's bow, 5 mm off the middle.
+    double lips = join(cone(p, {0, -65.6, 92.5}, {6, -64.4, 91.8}, 4.3, 4.5),
+                       cone(p, {6, -64.4, 91.8}, {25, -68.2, 80.5}, 4.5, 1.8), 2);
+    const double lower = join(cone(p, {0, -73.6, 90.8}, {9, -73.2, 89.3}, 6.0, 5.6),
+                              cone(p, {9, -73.2, 89.3}, {24.5, -69.6, 80.5}, 5.6, 2), 3);
+    lips = join(lips, lower, 1.0);
+    d = join(d, lips, 3.5);
+    d = carve(d, cone(p, {0, -48, 101}, {0, -60, 99.6}, 2.6, 3.0), 4);  // philtrum
+    d = carve(d, ellipsoid(p, {0, -86, 98}, {19, 5, 7.5}), 9);          // mentolabial fold
+    d = carve(d, glm::length(p - Vec3(27.5, -69, 85)) - 2.5, 5);        // corner
+    return d;
+}
+
+}  // namespace
+
+double head_distance(const Vec3& point) {
+    // The rounded |x| keeps features that lean toward the midline from creasing there.
+    const Vec3 p{std::sqrt(square(point.x) + 1), point.y, point.z};
+    return mouth(p, nose(p, lids(p, soft_tissue(p, skull(p)))));
+}
+
+Vec3 head_normal(const Vec3& p) {
+    constexpr double h = 0.02;
+    const auto slope = [&](Vec3 step) { return head_distance(p + step) - head_distance(p - step); };
+    return glm::normalize(Vec3(slope({h, 0, 0}), slope({0, h, 0}), slope({0, 0, h})));
+}
+
+Vec3 leave_head(const Vec3& origin, const Vec3& direction) {
+    double low = 0;
+    constexpr double farthest = 400, least_step = 0.25;
+    while (low < farthest) {
+        const double d = head_distance(origin + direction * low);
+        if (d >= 0) break;
+        low += std::max(-0.6 * d, least_step);
+    }
+    double high = low;
+    low = std::max(0.0, low - 12);
+    while (low < high && head_distance(origin + direction * low) >= 0) low -= 6;
+    for (int i = 0; i < 30; ++i) {
+        const double middle = (low + high) / 2;
+        (head_distance(origin + direction * middle) < 0 ? low : high) = middle;
+    }
+    return origin + direction * high;
+}
+
+Vec3 project_to_head(const Vec3& start) {
+    Vec3 p = start;
+    for (int i = 0; i < 3; ++i) p -= head_normal(p) * std::clamp(head_distance(p), -3.0, 3.0);
+    return p;
+}
+
+double canthal_y(double x) {
+    const double t = (x - landmark::inner_canthus.x) / (landmark::outer_canthus.x - landmark::inner_canthus.x);
+    return mix(landmark::inner_canthus.y, landmark::outer_canthus.y, t);
+}
+
+namespace {
+double along_eye(double x) {
+    return std::clamp((x - landmark::inner_canthus.x) / (landmark::outer_canthus.x - landmark::inner_canthus.x), 0.0,
+                      1.0);
+}
+}  // namespace
+
+double upper_lid_height(double x) {
+    // An almond: the upper lid peaks inside the middle, the lower one outside it.
+    const double t = along_eye(x);
+    return 5.9 * std::pow(std::sin(pi * std::pow(t, 0.92)), 0.72);
+}
+
+double lower_lid_height(double x) {
+    const double t = along_eye(x);
+    return 5.0 * std::pow(std::sin(pi * std::pow(t, 1.12)), 0.85);
+}
+
+double lip_line_y(double x) {
+    const double t = std::clamp(std::abs(x) / landmark::mouth_corner_x, 0.0, 1.0);
+    // The upper lip's tubercle dips in the middle, the line rises beside it and falls a little to the corner.
+    return landmark::stomion_y - 0.9 * bell(t, 0.22) + 0.8 * std::sin(pi * t) - 0.3 * t;
+}
+
+}  // namespace blush::make_face
