@@ -8,7 +8,8 @@
 namespace blush {
 
 struct Offscreen::State {
-    const Device* device = nullptr;
+    explicit State(Device on) : device(std::move(on)) {}
+    Device device;
     std::uint32_t width = 0, height = 0;
     Output output = Output::display_srgb;
     gl::Texture color;
@@ -19,7 +20,7 @@ Offscreen::Offscreen(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Offscreen::Offscreen(Offscreen&&) noexcept = default;
 Offscreen& Offscreen::operator=(Offscreen&&) noexcept = default;
 Offscreen::~Offscreen() {
-    if (state_) state_->device->make_current();
+    if (state_) state_->device.make_current();
 }
 
 Result<Offscreen> Offscreen::create(const Device& device, std::uint32_t width, std::uint32_t height, Output output) {
@@ -29,8 +30,7 @@ Result<Offscreen> Offscreen::create(const Device& device, std::uint32_t width, s
                      std::to_string(largest) + " pixels"};
     }
     device.make_current();
-    auto state = std::make_unique<State>();
-    state->device = &device;
+    auto state = std::make_unique<State>(device);
     state->width = width;
     state->height = height;
     state->output = output;
@@ -52,7 +52,7 @@ View Offscreen::view() const {
 }
 
 Image Offscreen::read() const {
-    state_->device->make_current();
+    state_->device.make_current();
     const gl::StateGuard guard;
     Image image;
     image.width = state_->width;

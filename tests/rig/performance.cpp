@@ -88,7 +88,7 @@ TEST(Rig, WhatIsNotFiniteCountsAsZero) {
     controls[1] = std::numeric_limits<float>::infinity();
     controls[2] = std::numeric_limits<float>::max();
     rig.evaluate(controls, pose);
-    EXPECT_THAT(pose.weights, ElementsAre(0, 0, std::numeric_limits<float>::max()));
+    EXPECT_THAT(pose.weights, ElementsAre(0, 0, largest_weight));
     EXPECT_EQ(pose.head.yaw_radians, 0);
     EXPECT_EQ(pose.right_eye.pitch_radians, 0);
 }
