@@ -48,7 +48,8 @@ void copy_mesh(GlbBuilder& glb) {
 
 TEST_F(GltfRules, SparseTargetKeepsOnlyWhatMoves) {
     GlbBuilder glb = one_target();
-    glb.dense_target("puff", {{0, 0, 0}, {0, 0, 0}, {0, 0, 3}, {0, 0, 0}}, {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+    glb.dense_target("puff", {{0, 0, 0}, {0, 0, 0}, {0, 0, 3}, {0, 0, 0}},
+                     {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
     const Face face = load(glb);
     ASSERT_EQ(face.targets.size(), 2U);
     EXPECT_THAT(face.targets[0].vertices, ElementsAre(1U, 3U));
@@ -94,7 +95,8 @@ TEST_F(GltfRules, NormalDeltasOfALaterMeshStandBesideZeros) {
     copy_mesh(glb);
     glb.json["meshes"][1]["primitives"][0]["targets"][0]["NORMAL"] = glb.sparse_accessor({1}, {{1, 0, 0}});
     const Face face = load(glb);
-    EXPECT_THAT(face.targets[0].normal_deltas, ElementsAre(glm::vec3(0), glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0)));
+    EXPECT_THAT(face.targets[0].normal_deltas,
+                ElementsAre(glm::vec3(0), glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0)));
     EXPECT_EQ(face.primitives[0].normal_source, NormalSource::recomputed);
     EXPECT_EQ(face.primitives[1].normal_source, NormalSource::authored);
 }
@@ -113,7 +115,9 @@ TEST_F(GltfRules, RepeatedNamesAreNumbered) {
     glb.target("jawOpen", {0}, {{1, 0, 0}}).target("jawOpen", {2}, {{1, 0, 0}});
     const Face face = load(glb);
     EXPECT_THAT(names(face), ElementsAre("jawOpen", "jawOpen#2", "jawOpen#3"));
-    EXPECT_THAT(face.notes, ElementsAre("meshes[0].extras.targetNames: 2 names are used twice and were numbered, as in \"name#2\""));
+    EXPECT_THAT(
+        face.notes,
+        ElementsAre("meshes[0].extras.targetNames: 2 names are used twice and were numbered, as in \"name#2\""));
 }
 
 TEST_F(GltfRules, DefaultWeightsComeFromTheNodeThenTheMesh) {
@@ -145,7 +149,10 @@ TEST_F(GltfRules, StripsAndFansBecomeLists) {
 
 TEST_F(GltfRules, NodesComeParentsFirst) {
     GlbBuilder glb = one_target();
-    glb.json["nodes"] = {{{"mesh", 0}, {"name", "head"}}, {{"name", "root"}, {"children", {3}}}, {{"name", "other"}}, {{"name", "neck"}, {"children", {0}}}};
+    glb.json["nodes"] = {{{"mesh", 0}, {"name", "head"}},
+                         {{"name", "root"}, {"children", {3}}},
+                         {{"name", "other"}},
+                         {{"name", "neck"}, {"children", {0}}}};
     glb.json["scenes"][0]["nodes"] = {1};
     glb.node_animation("translation", {0}, std::vector<glm::vec3>{{0, 1, 0}});
     const Face face = load(glb);
@@ -203,7 +210,8 @@ TEST_F(GltfRules, WeightsOfASecondInstanceAreLeftOut) {
     glb.json["animations"][0]["channels"][0]["target"]["node"] = 1;
     const Face face = load(glb);
     EXPECT_THAT(face.animations[0].weights, IsEmpty());
-    EXPECT_THAT(face.notes, ElementsAre("animations[0].channels[0]: it animates a second instance of meshes[0] and was left out"));
+    EXPECT_THAT(face.notes,
+                ElementsAre("animations[0].channels[0]: it animates a second instance of meshes[0] and was left out"));
 }
 
 TEST_F(GltfRules, NormalisedIntegers) {
@@ -213,14 +221,18 @@ TEST_F(GltfRules, NormalisedIntegers) {
     glb.json["accessors"].back()["normalized"] = true;
     // -128 clamps at -1 (glTF 2.0, 3.11).
     const std::vector<glm::i8vec4> normals = {{-128, 0, 0, 0}, {0, 127, 0, 0}, {0, 0, 127, 0}, {0, 0, -127, 0}};
-    glb.json["accessors"].push_back({{"bufferView", glb.view(std::as_bytes(std::span(normals)))}, {"componentType", 5120},
-                                     {"count", 4}, {"type", "VEC3"}, {"normalized", true}});
+    glb.json["accessors"].push_back({{"bufferView", glb.view(std::as_bytes(std::span(normals)))},
+                                     {"componentType", 5120},
+                                     {"count", 4},
+                                     {"type", "VEC3"},
+                                     {"normalized", true}});
     glb.json["bufferViews"].back()["byteStride"] = 4;
     glb.primitive()["attributes"]["NORMAL"] = glb.json["accessors"].size() - 1;
     const Face face = load(glb);
     EXPECT_EQ(face.uv0[0], glm::vec2(0, 1));
     EXPECT_NEAR(face.uv0[3].x, 0.2F, 1e-6F);
-    EXPECT_THAT(face.normals, ElementsAre(glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)));
+    EXPECT_THAT(face.normals,
+                ElementsAre(glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)));
 }
 
 TEST_F(GltfRules, NormalsWithoutLengthAreComputed) {
@@ -229,8 +241,10 @@ TEST_F(GltfRules, NormalsWithoutLengthAreComputed) {
     const Face face = load(glb);
     EXPECT_EQ(face.normals[0], glm::vec3(0, 0, 1));
     EXPECT_EQ(face.normals[1], glm::vec3(1, 0, 0));
-    EXPECT_THAT(face.notes, ElementsAre("meshes[0].primitives[0].attributes.NORMAL: 1 normals have no length and were computed from "
-                                        "the triangles"));
+    EXPECT_THAT(
+        face.notes,
+        ElementsAre("meshes[0].primitives[0].attributes.NORMAL: 1 normals have no length and were computed from "
+                    "the triangles"));
 }
 
 TEST_F(GltfRules, TangentsFollowTheTextureCoordinates) {
@@ -243,12 +257,14 @@ TEST_F(GltfRules, TangentsFollowTheTextureCoordinates) {
 TEST_F(GltfRules, JointWeightsSumToOne) {
     GlbBuilder glb = one_target();
     glb.attribute("WEIGHTS_0", std::vector<glm::vec4>{{1, 1, 0, 0}, {0, 0, 0, 0}, {0.5F, 0, 0, 0}, {3, 0, 0, 1}});
-    glb.primitive()["attributes"]["JOINTS_0"] = glb.accessor(std::vector<glm::u8vec4>(4, glm::u8vec4(0, 1, 9, 0)), "VEC4", 5121);
+    glb.primitive()["attributes"]["JOINTS_0"] =
+        glb.accessor(std::vector<glm::u8vec4>(4, glm::u8vec4(0, 1, 9, 0)), "VEC4", 5121);
     glb.json["nodes"][0]["skin"] = 0;
     glb.json["nodes"].push_back({{"name", "a"}});
     glb.json["skins"] = {{{"joints", {1, 1}}}};
     const Face face = load(glb);
-    EXPECT_THAT(face.joint_weights, ElementsAre(glm::vec4(0.5F, 0.5F, 0, 0), glm::vec4(0), glm::vec4(1, 0, 0, 0), glm::vec4(0.75F, 0, 0, 0.25F)));
+    EXPECT_THAT(face.joint_weights, ElementsAre(glm::vec4(0.5F, 0.5F, 0, 0), glm::vec4(0), glm::vec4(1, 0, 0, 0),
+                                                glm::vec4(0.75F, 0, 0, 0.25F)));
     EXPECT_EQ(face.skins[0].joint_from_mesh[1], glm::mat4(1));
 }
 
@@ -258,10 +274,15 @@ TEST_F(GltfRules, TextureTransformAndWrapping) {
     glb.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
     glb.json["samplers"] = {{{"wrapS", 33071}}};
     // One white pixel.
-    glb.json["images"] = {{{"uri", "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8/5+hHgAHggJ/PchI7wAAAABJRU5ErkJggg=="}}};
-    glb.json["materials"] = {{{"emissiveTexture",
-                               {{"index", 0},
-                                {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}, {"texCoord", 1}}}}}}}}};
+    glb.json["images"] = {{{"uri",
+                            "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8/"
+                            "5+hHgAHggJ/PchI7wAAAABJRU5ErkJggg=="}}};
+    glb.json["materials"] = {
+        {{"emissiveTexture",
+          {{"index", 0},
+           {"extensions",
+            {{"KHR_texture_transform",
+              {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}, {"texCoord", 1}}}}}}}}};
     glb.primitive()["material"] = 0;
     const Face face = load(glb);
     const TextureUse& use = face.materials[0].emissive_srgb;
@@ -297,7 +318,9 @@ TEST_F(GltfRules, MeshoptModesGiveBackTheSameMesh) {
         ASSERT_EQ(face.indices.size(), plain.indices.size());
         // The triangle codec may turn a triangle's corners round.
         for (std::size_t i = 0; i < face.indices.size(); i += 3) {
-            const auto lowest = [](const Face& f, std::size_t t) { return std::min({f.indices[t], f.indices[t + 1], f.indices[t + 2]}); };
+            const auto lowest = [](const Face& f, std::size_t t) {
+                return std::min({f.indices[t], f.indices[t + 1], f.indices[t + 2]});
+            };
             EXPECT_EQ(lowest(face, i), lowest(plain, i));
         }
     }
@@ -368,7 +391,8 @@ TEST_F(GltfRules, ObjSplitsVerticesAtSeamsAndKeepsTheirOrder) {
         return face ? std::move(*face) : Face{};
     };
     // A quad and a triangle that meet at an edge; vertex 2 has two texture coordinates.
-    const std::string shape = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 9 9 9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0.5\n";
+    const std::string shape =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 9 9 9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0.5\n";
     const Face seam = load_text(shape + "f 1/1 2/2 3/3 4/4\nf 2/5 5/2 3/3\n");
     ASSERT_EQ(seam.positions.size(), 7U);
     EXPECT_EQ(seam.positions[1], glm::vec3(1, 0, 0));
