@@ -352,6 +352,10 @@ TEST_F(BadInput, Images) {
     const std::string cut = "\x89PNG\r\n\x1A\n";
     GlbBuilder::write_file(folder_ / "cut.png", std::vector<std::uint8_t>(cut.begin(), cut.end()));
     glb.json["images"] = {{{"uri", "cut.png"}}};
+    EXPECT_EQ(error_of(glb), "images[0]: the PNG is cut short");
+    const std::string jpeg = "\xFF\xD8\xFF\xE0";
+    GlbBuilder::write_file(folder_ / "cut.jpg", std::vector<std::uint8_t>(jpeg.begin(), jpeg.end()));
+    glb.json["images"] = {{{"uri", "cut.jpg"}}};
     EXPECT_TRUE(error_of(glb).starts_with("images[0]: the image cannot be decoded (")) << error_of(glb);
     glb.json["textures"] = {{{"source", 5}}};
     EXPECT_EQ(error_of(glb), "textures[0].source: there is no images[5], the file has 1 images");
