@@ -15,7 +15,7 @@ FaceParts build_face(std::size_t vertices) {
     grow_hair(head);
 
     enum MaterialIndex : std::size_t { skin, eye, tooth, gum, tongue, lash };
-    constexpr int skin_texture_side = 2048, pore_texture_side = 2048, eye_texture_side = 1024;
+    constexpr int skin_texture_side = 2048, pore_texture_side = 1024, eye_texture_side = 1024;
     face.materials.resize(6);
     face.materials[skin] = {.name = "skin",
                             .roughness = 0.5,

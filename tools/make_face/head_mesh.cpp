@@ -4,6 +4,7 @@
 
 #include "tools/make_face/ear.h"
 #include "tools/make_face/head_shape.h"
+#include "tools/make_face/parallel.h"
 
 namespace blush::make_face {
 namespace {
@@ -231,24 +232,27 @@ private:
         };
         std::vector<Vec3> next = positions_;
         for (int round = 0; round < rounds; ++round) {
-            for (int j = 1; j < grid_.last_row(); ++j) {
-                for (int i = 0; i <= grid_.last_column(); ++i) {
-                    const Index v = id(i, j);
-                    if (pinned_[v]) continue;
-                    const Vec3 right = i > 0 ? positions_[id(i - 1, j)] : mirrored(positions_[id(1, j)]);
-                    const Vec3 left =
-                        i < grid_.last_column() ? positions_[id(i + 1, j)] : mirrored(positions_[id(i - 1, j)]);
-                    const double toward_right = i > 0 && i < grid_.last_column() ? weight(grid_.azimuth.lines, i) : 0.5;
-                    const Vec3 below = positions_[upper_id(i, j - 1)], above = positions_[id(i, j + 1)];
-                    const double toward_below = weight(grid_.elevation.lines, j);
-                    const Vec3 mean = (right * toward_right + left * (1 - toward_right) + below * toward_below +
-                                       above * (1 - toward_below)) /
-                                      2.0;
-                    Vec3 p = project_to_head(blend(positions_[v], mean, 0.6));
-                    if (i == 0 || i == grid_.last_column()) p.x = 0;
-                    next[v] = p;
+            parallel_pieces(grid_.last_row() - 1, [&](int first, int last) {
+                for (int j = first + 1; j <= last; ++j) {
+                    for (int i = 0; i <= grid_.last_column(); ++i) {
+                        const Index v = id(i, j);
+                        if (pinned_[v]) continue;
+                        const Vec3 right = i > 0 ? positions_[id(i - 1, j)] : mirrored(positions_[id(1, j)]);
+                        const Vec3 left =
+                            i < grid_.last_column() ? positions_[id(i + 1, j)] : mirrored(positions_[id(i - 1, j)]);
+                        const double toward_right =
+                            i > 0 && i < grid_.last_column() ? weight(grid_.azimuth.lines, i) : 0.5;
+                        const Vec3 below = positions_[upper_id(i, j - 1)], above = positions_[id(i, j + 1)];
+                        const double toward_below = weight(grid_.elevation.lines, j);
+                        const Vec3 mean = (right * toward_right + left * (1 - toward_right) + below * toward_below +
+                                           above * (1 - toward_below)) /
+                                          2.0;
+                        Vec3 p = project_to_head(blend(positions_[v], mean, 0.6));
+                        if (i == 0 || i == grid_.last_column()) p.x = 0;
+                        next[v] = p;
+                    }
                 }
-            }
+            });
             positions_.swap(next);
         }
     }
@@ -369,12 +373,16 @@ private:
         const auto place = [&](std::size_t k, int side, int ring) {
             const Vec3 arm = head_.mesh.positions[side >= 0 ? head_.upper_lid[k] : head_.lower_lid[k]] - eye_centre;
             const double reach = glm::length(arm);
+            if (side == 0) {  // the corners go straight back along the ball
+                const Vec3 back = arm - Vec3(0, 0, 0.5 * ring);
+                return eye_centre + back * (std::max(glm::length(back), eye_radius + 0.4) / glm::length(back));
+            }
             const double radius = std::min(reach, eye_radius + clearance[ring]);
             const double turn = radians(turn_degrees[ring]) * side;
             // A lid turns about the horizontal axis through the eye's centre.
             const Vec3 turned(arm.x, arm.y * std::cos(turn) + arm.z * std::sin(turn),
                               arm.z * std::cos(turn) - arm.y * std::sin(turn));
-            return eye_centre + turned * (radius / reach) - (side == 0 ? Vec3(0, 0, 0.4 * ring) : Vec3(0));
+            return eye_centre + turned * (radius / reach);
         };
         const auto texture = [&](std::size_t k, int side, int ring) {
             const Index edge = side >= 0 ? head_.upper_lid[k] : head_.lower_lid[k];

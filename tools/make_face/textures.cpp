@@ -6,6 +6,7 @@
 #include "tools/make_face/eyes.h"
 #include "tools/make_face/hair.h"
 #include "tools/make_face/head_shape.h"
+#include "tools/make_face/parallel.h"
 
 namespace blush::make_face {
 namespace {
@@ -27,9 +28,9 @@ struct Spot {
     int lip = 0;
 };
 
-/// Runs `paint(x, y, spot)` for every texel that a triangle of the head covers.
+/// The rows from first_row to last_row of the texture, both included.
 template <class Paint>
-void for_each_texel(const Head& head, int side, Paint paint) {
+void paint_rows(const Head& head, int side, int first_row, int last_row, Paint paint) {
     const Mesh& mesh = head.mesh;
     for (const Triangle& t : mesh.triangles) {
         const Vec2 a = mesh.uv[t[0]] * static_cast<double>(side), b = mesh.uv[t[1]] * static_cast<double>(side),
@@ -48,7 +49,7 @@ void for_each_texel(const Head& head, int side, Paint paint) {
             if (tag.part != Part::skin) spot.part = tag.part;
             if (tag.lip != 0) spot.lip = tag.lip;
         }
-        for (int y = low(a.y, b.y, c.y); y <= high(a.y, b.y, c.y); ++y) {
+        for (int y = std::max(first_row, low(a.y, b.y, c.y)); y <= std::min(last_row, high(a.y, b.y, c.y)); ++y) {
             for (int x = low(a.x, b.x, c.x); x <= high(a.x, b.x, c.x); ++x) {
                 const Vec2 q(x + 0.5, y + 0.5);
                 double wa = ((b.x - q.x) * (c.y - q.y) - (c.x - q.x) * (b.y - q.y)) / area;
@@ -66,6 +67,12 @@ void for_each_texel(const Head& head, int side, Paint paint) {
     }
 }
 
+/// Runs `paint(x, y, spot)` for every texel that a triangle of the head covers.
+template <class Paint>
+void for_each_texel(const Head& head, int side, Paint paint) {
+    parallel_pieces(side, [&](int first_row, int last_row) { paint_rows(head, side, first_row, last_row - 1, paint); });
+}
+
 /// Distance from p to the edge of the nearer eye's upper or lower lid, front view, millimetres; positive outside the
 /// opening.
 double lid_edge_distance(const Vec3& p, bool upper) {
@@ -78,10 +85,10 @@ double lid_edge_distance(const Vec3& p, bool upper) {
 double lip_cover(const Vec3& p) {
     const double x = std::abs(p.x), t = x / mouth_corner_x;
     if (t > 1.05 || p.z < 60) return 0;
-    const double closing = std::sqrt(std::max(0.0, 1 - std::pow(std::min(t, 1.0), 2.4)));
-    const double bow = 1.5 * bell(x, 3.2);
-    const double top = lip_line_y(x) + 8.3 * closing - bow;
-    const double bottom = lip_line_y(x) - 11.2 * std::pow(closing, 1.15);
+    const double closing = std::pow(std::max(0.0, 1 - square(std::min(t, 1.0))), 0.72);
+    const double bow = 1.3 * bell(x, 3.4);
+    const double top = lip_line_y(x) + 7.6 * closing - bow;
+    const double bottom = lip_line_y(x) - 10.6 * std::pow(closing, 0.9);
     constexpr double soft = 1.3;
     return smooth_step(top + soft, top - soft, p.y) * smooth_step(bottom - soft, bottom + soft, p.y);
 }
@@ -90,7 +97,7 @@ double lip_cover(const Vec3& p) {
 double brow_cover(const Vec3& p) {
     const double x = std::abs(p.x);
     const double s = (x - 9.5) / 39.0;  // 0 at the brow's head, 1 at its tail
-    if (s < -0.1 || s > 1.1 || p.z < 20) return 0;
+    if (s < -0.1 || s > 1.1 || p.z < 20 || p.y < 5 || p.y > 40) return 0;
     const double middle =
         17.0 + 8.2 * std::sin(pi * 0.5 * std::clamp(s / 0.68, 0.0, 1.0)) - 9.5 * square(std::max(0.0, s - 0.66) / 0.34);
     const double half_width = mix(3.9, 1.0, smooth_step(0.25, 1.05, s)) * smooth_step(-0.06, 0.06, s);
@@ -147,6 +154,8 @@ Color face_color(const Spot& spot) {
     }
     if (spot.part == Part::lid_lining) return blend(rim, Color(0.45, 0.20, 0.18), smooth_step(0.3, 0.9, spot.depth));
 
+    const double hair = hair_paint(p);
+    if (hair >= 1) return hair_color(p);
     Color c = skin_color(p, spot.normal);
     const double lip = lip_cover(p);
     if (lip > 0) {
@@ -165,8 +174,7 @@ Color face_color(const Spot& spot) {
     }
     const Color brow_hair(0.215, 0.135, 0.10);
     c = blend(c, brow_hair, 0.9 * brow_cover(p));
-    const double hair = hair_cover(p);
-    if (hair > 0) c = blend(c, hair_color(p), smooth_step(0.0, 0.5, hair));
+    if (hair > 0) c = blend(c, hair_color(p), hair);
     return c;
 }
 
@@ -200,8 +208,10 @@ Picture paint_eye(int side) {
             const double r = std::hypot(px, py), turn = std::atan2(py, px);
             const double across = 3 * std::cos(turn), up = 3 * std::sin(turn);
 
-            Color sclera(0.90, 0.875, 0.85);
-            sclera = blend(sclera, Color(0.80, 0.55, 0.50), smooth_step(limbus * 1.5, 0.95, r));
+            Color sclera(0.83, 0.80, 0.77);
+            // The ball darkens toward the lids, which shade it, and reddens toward its corners.
+            sclera = blend(sclera, Color(0.60, 0.47, 0.43), smooth_step(limbus * 1.25, limbus * 2.6, r));
+            sclera = blend(sclera, Color(0.74, 0.47, 0.42), 0.6 * smooth_step(limbus * 1.7, 0.85, r));
             const double vein = std::abs(fractal_noise({across * 3, up * 3, r * 5}, 3));
             sclera = blend(sclera, Color(0.76, 0.36, 0.33),
                            0.45 * smooth_step(0.10, 0.0, vein) * smooth_step(limbus * 1.3, 0.6, r));
@@ -210,8 +220,8 @@ Picture paint_eye(int side) {
             const double f = std::clamp((r - pupil) / (limbus - pupil), 0.0, 1.0);
             const double fibre = fractal_noise({across * 9, up * 9, f * 1.2}, 3);
             Color iris =
-                blend(Color(0.42, 0.33, 0.18), Color(0.30, 0.42, 0.46), smooth_step(0.10, 0.55, f + 0.18 * fibre));
-            iris = iris * (1 + 0.30 * fibre);
+                blend(Color(0.36, 0.27, 0.15), Color(0.27, 0.335, 0.33), smooth_step(0.10, 0.55, f + 0.18 * fibre));
+            iris = iris * (0.92 + 0.30 * fibre);
             iris = blend(iris, Color(0.07, 0.09, 0.11), smooth_step(0.72, 1.0, f));
             iris = blend(iris, Color(0.02), smooth_step(0.10, 0.0, f));
 
