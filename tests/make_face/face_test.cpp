@@ -131,6 +131,8 @@ TEST(Lids, NoVertexEntersAnEyeballAtAnyWeightOfAnyTarget) {
             const Vec3& rest = head.mesh.positions[v];
             const Vec3 centre = rest.x < 0 ? mirrored(landmark::eye_centre) : landmark::eye_centre;
             if (glm::distance(rest, centre) > 25) continue;
+            const VertexTag& tag = head.tags[v];
+            if (tag.part == Part::lid_lining && tag.depth == 1) continue;  // sealed inside the ball on purpose
             for (const double weight : {0.0, 0.25, 0.5, 0.75, 1.0}) {
                 const Vec3 arm = moved(t, v, weight) - centre;
                 const double distance = glm::length(arm);

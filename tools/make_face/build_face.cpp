@@ -28,16 +28,9 @@ FaceParts build_face(std::size_t vertices) {
                              .roughness = 0.25,
                              .base_color_png = {},
                              .normal_png = {}};
-    face.materials[gum] = {.name = "gums",
-                           .base_color_linear = {0.45, 0.12, 0.11, 1},
-                           .roughness = 0.35,
-                           .base_color_png = {},
-                           .normal_png = {}};
-    face.materials[tongue] = {.name = "tongue",
-                              .base_color_linear = {0.47, 0.14, 0.13, 1},
-                              .roughness = 0.4,
-                              .base_color_png = {},
-                              .normal_png = {}};
+    face.materials[gum] = {.name = "gums", .roughness = 0.35, .base_color_png = png(paint_gum(128)), .normal_png = {}};
+    face.materials[tongue] = {
+        .name = "tongue", .roughness = 0.4, .base_color_png = png(paint_tongue(128)), .normal_png = {}};
     face.materials[lash] = {.name = "lashes",
                             .base_color_linear = {0.012, 0.008, 0.006, 1},
                             .roughness = 0.6,

@@ -367,15 +367,20 @@ private:
     /// The lid's margin turns in to the eyeball, then runs back along it.
     void line_lids() {
         constexpr int rings = 4;
-        constexpr double clearance[rings + 1] = {0, 1.25, 0.45, 0.6, 1.4};  // millimetres over the eyeball
-        constexpr double turn_degrees[rings + 1] = {0, 0.0, 1.0, 9, 26};    // away from the opening
+        constexpr double sealed_inside =
+            -1.0;  // the last ring lies in the eyeball, so that no gap shows behind the lids
+
+        constexpr double clearance[rings + 1] = {0, 1.25, 0.45, 0.6, sealed_inside};  // millimetres over the eyeball
+        constexpr double turn_degrees[rings + 1] = {0, 0.0, 1.0, 9, 26};              // away from the opening
         const std::size_t last = head_.upper_lid.size() - 1;
         const auto place = [&](std::size_t k, int side, int ring) {
             const Vec3 arm = head_.mesh.positions[side >= 0 ? head_.upper_lid[k] : head_.lower_lid[k]] - eye_centre;
             const double reach = glm::length(arm);
             if (side == 0) {  // the corners go straight back along the ball
                 const Vec3 back = arm - Vec3(0, 0, 0.5 * ring);
-                return eye_centre + back * (std::max(glm::length(back), eye_radius + 0.4) / glm::length(back));
+                const double length =
+                    ring == rings ? eye_radius + sealed_inside : std::max(glm::length(back), eye_radius + 0.4);
+                return eye_centre + back * (length / glm::length(back));
             }
             const double radius = std::min(reach, eye_radius + clearance[ring]);
             const double turn = radians(turn_degrees[ring]) * side;

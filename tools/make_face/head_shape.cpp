@@ -28,16 +28,17 @@ double carve(double a, double hollow, double k) { return -join(-a, hollow, k); }
 
 double skull(const Vec3& p) {
     double d = ellipsoid(p, {0, 36, -8}, {74, 78, 88});
-    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);      // frontal bone
-    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);     // midface
-    d = join(d, ellipsoid(p, {42, -22, 51}, {20, 15, 22}), 22);    // zygomatic bone
-    d = join(d, cone(p, {39, -68, 8}, {9, -99, 71}, 12, 12), 22);  // body of the mandible
-    d = join(d, cone(p, {46, -30, 0}, {39, -66, 8}, 12, 12), 20);  // its ramus
-    d = join(d, ellipsoid(p, {0, -78, 32}, {42, 30, 44}), 20);     // floor of the mouth
-    d = join(d, ellipsoid(p, {0, -99.5, 74}, {15, 14, 17}), 16);   // chin
-    d = join(d, ellipsoid(p, {0, -55, -42}, {44, 44, 40}), 18);    // nape
+    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);        // frontal bone
+    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);       // midface
+    d = join(d, ellipsoid(p, {42, -22, 51}, {20, 15, 22}), 22);      // zygomatic bone
+    d = join(d, cone(p, {36.5, -68, 8}, {9, -99, 71}, 12, 12), 22);  // body of the mandible
+    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);  // its ramus
+    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);       // floor of the mouth
+    d = join(d, ellipsoid(p, {0, -99.5, 74}, {15, 14, 17}), 16);     // chin
+    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);      // nape
+    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);     // behind the concha
     const Vec3 neck{p.x, p.y, p.z * 0.96};
-    return join(d, cone(neck, {0, -80, -24}, {0, -205, -36}, 48, 56), 16);
+    return join(d, cone(neck, {0, -80, -24}, {0, -205, -36}, 48, 56), 24);
 }
 
 double soft_tissue(const Vec3& p, double d) {
@@ -60,13 +61,13 @@ double lids(const Vec3& p, double d) {
 }
 
 double nose(const Vec3& p, double d) {
-    double n = cone(p, {0, 6, 85}, {0, -34, 103}, 4.8, 6.5);             // bridge
+    double n = cone(p, {0, 6, 85}, {0, -34, 100.5}, 4.8, 6.5);           // bridge
     n = join(n, cone(p, {2.5, -2, 79}, {8.5, -36, 90}, 6, 7.5), 9);      // its sides
-    n = join(n, ellipsoid(p, {0, -36.5, 105}, {8.2, 8, 8.8}), 9);        // tip
+    n = join(n, ellipsoid(p, {0, -36, 102.5}, {8.2, 8, 8.8}), 9);        // tip
     n = join(n, ellipsoid(p, {10.6, -40.5, 96}, {5.6, 6.2, 8.4}), 6.5);  // wing
-    n = join(n, cone(p, {0, -43, 107}, {0, -47, 96}, 3.0, 3.4), 4);      // columella
+    n = join(n, cone(p, {0, -42, 105}, {0, -47, 96}, 3.0, 3.4), 4);      // columella
     d = join(d, n, 7);
-    return carve(d, ellipsoid(p, {6.2, -47, 99.5}, {3.1, 7.0, 5.4}), 2.5);
+    return carve(d, ellipsoid(p, {6.2, -46.5, 98.5}, {3.1, 7.0, 5.2}), 2.5);
 }
 
 double mouth(const Vec3& p, double d) {

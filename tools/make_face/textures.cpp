@@ -131,7 +131,13 @@ Color skin_color(const Vec3& p, const Vec3& normal) {
     toward(Color(0.34, 0.17, 0.14),
            0.95 * bell(half, {6.6, -45, 99.5}, {4.2, 4.0, 6.5}) * smooth_step(0.35, -0.15, normal.z));  // nostril
     toward(blood, 0.16 * (0.5 + 0.5 * fractal_noise(p / 9.0, 3)));                                      // uneven tone
-    const double grain = 1 + 0.014 * fractal_noise(p / 1.6, 3);
+    toward(cool, 0.22 * smooth_step(-0.2, 0.9, fractal_noise(p / 17.0 + Vec3(3, 7, 1), 2)));
+    toward(shadow, 0.20 * bell(half, {0, -86.5, 92}, {16, 3.5, 14}));  // below the lower lip
+    toward(shadow, 0.16 * bell(half, {19.5, -49, 86}, {3.5, 9, 14}));  // nasolabial fold
+    // Freckles: a few of the lattice's cells, over the nose and the cheeks.
+    const double freckled = bell(half, {24, -26, 84}, {26, 13, 26});
+    toward(Color(0.66, 0.44, 0.34), 0.35 * freckled * smooth_step(0.45, 0.75, noise(p / 1.7 + Vec3(91, 13, 47))));
+    const double grain = 1 + 0.022 * fractal_noise(p / 1.3, 3) + 0.018 * fractal_noise(p / 5.0, 2);
     return c * grain;
 }
 
@@ -139,7 +145,7 @@ Color ear_color(const Vec3& p) {
     const Color skin(0.84, 0.60, 0.51), blood(0.78, 0.40, 0.34), deep(0.40, 0.20, 0.16);
     Color c = blend(skin, blood, 0.35 + 0.12 * fractal_noise(p / 7.0, 2));
     const Vec3 half{std::abs(p.x), p.y, p.z};
-    c = blend(c, deep, 0.85 * bell(half, ear_centre + Vec3(3, -2, 2), {9, 5.5, 6}));
+    c = blend(c, deep, 0.85 * bell(half, ear_centre + Vec3(0, -3, 5), {9, 5, 5}));
     return c;
 }
 
@@ -148,9 +154,9 @@ Color face_color(const Spot& spot) {
     const Color lip_red(0.75, 0.43, 0.40), lip_dark(0.46, 0.17, 0.17), lash(0.13, 0.075, 0.06), rim(0.80, 0.52, 0.47);
     if (spot.part == Part::ear) return ear_color(p);
     if (spot.part == Part::mouth_lining) {
-        const Color throat(0.20, 0.06, 0.06), flesh(0.62, 0.27, 0.26);
+        const Color deep(0.16, 0.05, 0.05), flesh(0.62, 0.27, 0.26);
         const Color front = blend(lip_red * 0.9, flesh, smooth_step(0.1, 0.35, spot.depth));
-        return blend(front, throat, smooth_step(0.45, 0.95, spot.depth));
+        return blend(front, deep, smooth_step(0.3, 0.62, spot.depth));
     }
     if (spot.part == Part::lid_lining) return blend(rim, Color(0.45, 0.20, 0.18), smooth_step(0.3, 0.9, spot.depth));
 
@@ -231,6 +237,37 @@ Picture paint_eye(int side) {
         }
     }
     return picture;
+}
+
+namespace {
+/// `paint(u, v)` at every texel's middle.
+template <class Paint>
+Picture paint_square(int side, Paint paint) {
+    Picture picture{side, {}};
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const Color c = paint((x + 0.5) / side, (y + 0.5) / side);
+            for (int k = 0; k < 3; ++k) picture.rgb.push_back(to_byte(c[k]));
+        }
+    }
+    return picture;
+}
+const Color throat(0.16, 0.05, 0.05);
+}  // namespace
+
+Picture paint_gum(int side) {
+    return paint_square(side, [](double u, double v) {
+        const Color pink = Color(0.70, 0.38, 0.37) * (1 + 0.06 * fractal_noise({u * 60, v * 12, 0.5}, 2));
+        return blend(pink, throat, smooth_step(0.34, 0.52, v));
+    });
+}
+
+Picture paint_tongue(int side) {
+    return paint_square(side, [](double u, double v) {
+        const double papillae = fractal_noise({u * 70, v * 50, 0.5}, 2);
+        const Color flesh = Color(0.70, 0.38, 0.37) * (1 + 0.09 * papillae);
+        return blend(throat, flesh, smooth_step(0.25, 0.95, v));
+    });
 }
 
 Picture paint_pores(const Head& head, int side) {

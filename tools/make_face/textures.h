@@ -20,6 +20,11 @@ Picture paint_pores(const Head& head, int side);
 /// Sclera, iris and pupil, sRGB, in the eye's own polar layout.
 Picture paint_eye(int side);
 
+/// Gum (v from its front over the teeth to its back) and tongue (v from root to tip), sRGB: both darken toward the
+/// throat, where no light reaches.
+Picture paint_gum(int side);
+Picture paint_tongue(int side);
+
 std::vector<unsigned char> png(const Picture& picture);
 
 }  // namespace blush::make_face
