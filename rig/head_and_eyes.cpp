@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -116,6 +117,12 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
     };
     found.left_eye = find_eye("Left");
     found.right_eye = find_eye("Right");
+    if (found.left_eye.node >= 0 && found.right_eye.node >= 0) {
+        const auto x_of = [&](const Pivot& eye) {
+            return (world[static_cast<std::size_t>(eye.node)] * glm::vec4(eye.point_node, 1)).x;
+        };
+        if (x_of(found.left_eye) < x_of(found.right_eye)) std::swap(found.left_eye, found.right_eye);
+    }
     return found;
 }
 

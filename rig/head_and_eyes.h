@@ -22,8 +22,9 @@ struct HeadAndEyes {
 };
 
 /// Finds them by the nodes' names ("eyeLeft", "Eye_L", "grp_eyeRight", ...). An eye turns about its node's origin where
-/// that lies inside the eye's bounds, else about their centre; the head about the point in the middle of its bounds from
-/// side to side and a third of the way up (where the neck carries a head that is modelled down to its neck).
+/// that lies inside the eye's bounds, else about their centre. Of two eyes, the left one is that on the face's own left
+/// (+X): some files name their nodes as the viewer sees them and their targets as the face does. The head turns
+/// about the point in the middle of its bounds from side to side and a third of the way up (where the neck carries a head that is modelled down to its neck).
 HeadAndEyes find_head_and_eyes(const Face& face);
 
 /// world_from_node of every node, parents first. `world` has one entry a node. No allocation.

@@ -126,11 +126,11 @@ BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : pe
             unmatched_channels_.push_back(name);
             continue;
         }
+        // sample() writes the channels in order, so that of two the later one stays.
         std::uint32_t& channel = channel_of_control[control_of_channel_[i]];
         if (channel != no_control) {
             performance_.notes.push_back("channels '" + performance_.channels[channel].name + "' and '" + name +
                                          "' both drive '" + names[control_of_channel_[i]] + "'; the last one plays");
-            control_of_channel_[channel] = no_control;
         }
         channel = static_cast<std::uint32_t>(i);
     }

@@ -1,5 +1,6 @@
 #include "rig/rig.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -47,7 +48,9 @@ Pose Rig::rest_pose() const {
 void Rig::evaluate(std::span<const float> controls, Pose& pose) const {
     assert(controls.size() == names_.size() && "Rig::evaluate() takes one value for each control");
     assert(pose.weights.size() == target_count_ && "Rig::evaluate() takes a pose from rest_pose()");
-    for (std::size_t i = 0; i < target_count_; ++i) pose.weights[i] = finite_or_zero(controls[i]);
+    for (std::size_t i = 0; i < target_count_; ++i) {
+        pose.weights[i] = std::clamp(finite_or_zero(controls[i]), -largest_weight, largest_weight);
+    }
     const std::span<const float> angles = controls.subspan(target_count_);
     pose.head = angles_from(angles.subspan(0, 3));
     pose.left_eye = angles_from(angles.subspan(3, 3));

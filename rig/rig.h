@@ -30,6 +30,9 @@ struct Pose {
     Angles head, left_eye, right_eye;
 };
 
+/// Weights are limited to this on either side: far beyond any use, and small enough that no sum overflows.
+inline constexpr float largest_weight = 1000;
+
 /// How the controls of a face become its Pose. Immutable after construction; evaluate() may run on any thread.
 ///
 /// Controls, in this order: the face's targets by their own names, then headYaw, headPitch, headRoll, leftEyeYaw,
@@ -48,7 +51,7 @@ public:
     Pose rest_pose() const;
 
     /// controls: one value for each control. A value that is not finite counts as 0 (rule: the face rests rather than
-    /// breaks). Writes weights and angles of `pose`, leaves its nodes as they are. No allocation, no hidden state.
+    /// breaks); a weight beyond +-largest_weight counts as that. Writes weights and angles of `pose`, leaves its nodes as they are. No allocation, no hidden state.
     void evaluate(std::span<const float> controls, Pose& pose) const;
 
 private:

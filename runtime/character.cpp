@@ -48,16 +48,16 @@ Character::Character(std::unique_ptr<CharacterState> state) : state_(std::move(s
 Character::Character(Character&&) noexcept = default;
 Character& Character::operator=(Character&&) noexcept = default;
 Character::~Character() {
-    if (state_) state_->device->make_current();  // its GL objects must go in their own context
+    if (state_) state_->device.make_current();  // its GL objects must go in their own context
 }
 
-Result<Character> Character::load(Device& device, const std::filesystem::path& path) {
+Result<Character> Character::load(const Device& device, const std::filesystem::path& path) {
     Result<Face> face = load_face(path);
     if (!face) return face.error();
     return create(device, *std::move(face));
 }
 
-Result<Character> Character::create(Device& device, Face face) {
+Result<Character> Character::create(const Device& device, Face face) {
     if (Status valid = validate(face); !valid) return valid.error();
     device.make_current();
     const gl::StateGuard guard;
@@ -110,14 +110,14 @@ const FrameReport& Character::draw(const View& view) {
         state_->report = {};
         return state_->report;
     }
-    state_->device->make_current();
+    state_->device.make_current();
     const gl::StateGuard guard;
     draw_frame(*state_, view);
     return state_->report;
 }
 
 Character::Surface Character::read_deformed() {
-    state_->device->make_current();
+    state_->device.make_current();
     const gl::StateGuard guard;
     deform_only(*state_);
     const std::size_t count = state_->face.positions.size();

@@ -22,10 +22,10 @@ struct CharacterState;
 
 class Character {
 public:
-    /// Loads a face file (runtime/face_file.h) onto the device, which must outlive the character.
-    static Result<Character> load(Device& device, const std::filesystem::path& path);
+    /// Loads a face file (runtime/face_file.h) onto the device.
+    static Result<Character> load(const Device& device, const std::filesystem::path& path);
     /// The same from a face in memory, which must satisfy validate().
-    static Result<Character> create(Device& device, Face face);
+    static Result<Character> create(const Device& device, Face face);
 
     Character(Character&&) noexcept;
     Character& operator=(Character&&) noexcept;

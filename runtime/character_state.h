@@ -38,9 +38,9 @@ struct FrameResources {
 };
 
 struct CharacterState {
-    CharacterState(Device& on, Face loaded) : device(&on), face(std::move(loaded)), rig(face) {}
+    CharacterState(Device on, Face loaded) : device(std::move(on)), face(std::move(loaded)), rig(face) {}
 
-    Device* device;
+    Device device;
     Face face;
     Rig rig;
     HeadAndEyes head_and_eyes;

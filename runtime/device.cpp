@@ -65,13 +65,10 @@ Status read_info(DeviceInfo& info) {
 
 }  // namespace
 
-Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Device::Device(Device&&) noexcept = default;
-Device& Device::operator=(Device&&) noexcept = default;
-Device::~Device() = default;
+Device::Device(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
 Result<Device> Device::headless(bool debug) {
-    auto state = std::make_unique<State>();
+    auto state = std::make_shared<State>();
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
         return Error{"this machine's EGL has no surfaceless platform (Debian: libegl-mesa0 and libgl1-mesa-dri)"};
     }
@@ -103,7 +100,7 @@ Result<Device> Device::headless(bool debug) {
 
 Result<Device> Device::adopt_current() {
     if (!gl::context_is_current()) return Error{"no GL context is current on this thread"};
-    auto state = std::make_unique<State>();
+    auto state = std::make_shared<State>();
     if (Status info = read_info(state->info); !info) return info.error();
     return Device(std::move(state));
 }

@@ -17,8 +17,9 @@ struct DeviceInfo {
     std::uint64_t largest_storage_block_bytes = 0;
 };
 
-/// A GL 4.5 core context: one of our own without a window (EGL), or the host's. Not thread-safe; use it, and every
-/// Character made with it, from one thread at a time.
+/// A GL 4.5 core context: one of our own without a window (EGL), or the host's. A Device is a handle: copies share the
+/// context, and every Character keeps one, so that an own context lives as long as anything that needs it. Not
+/// thread-safe; use it, and every Character made with it, from one thread at a time.
 class Device {
 public:
     /// Makes a context on the surfaceless EGL platform. debug: collect the driver's messages (debug_messages()).
@@ -29,10 +30,6 @@ public:
     /// Error: no current context, or one below OpenGL 4.5. GL functions are found through libepoxy, by themselves.
     static Result<Device> adopt_current();
 
-    Device(Device&&) noexcept;
-    Device& operator=(Device&&) noexcept;
-    ~Device();
-
     const DeviceInfo& info() const;
 
     /// Makes an own context current on this thread; of an adopted one it does nothing.
@@ -41,12 +38,10 @@ public:
     /// High-severity messages of the driver since the device was made (headless with `debug` only).
     std::span<const std::string> debug_messages() const;
 
-    struct State;
-    State& state() const { return *state_; }
-
 private:
-    explicit Device(std::unique_ptr<State> state);
-    std::unique_ptr<State> state_;
+    struct State;
+    explicit Device(std::shared_ptr<State> state);
+    std::shared_ptr<State> state_;
 };
 
 }  // namespace blush

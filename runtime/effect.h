@@ -75,7 +75,7 @@ struct Effect {
     Need (*need)(const CharacterState&);
     void (*declare)(CharacterState&);
     /// `millimetres_a_unit`: scale of the face, for errors in millimetres.
-    std::vector<Study> (*studies)(Device&, const Face&, double millimetres_a_unit, bool quick);
+    std::vector<Study> (*studies)(const Device&, const Face&, double millimetres_a_unit, bool quick);
     std::span<const HardCase> hard_cases;
 };
 

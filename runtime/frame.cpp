@@ -101,7 +101,7 @@ void draw_frame(CharacterState& state, const View& view) {
     declare_effects(state);
 
     const auto samples = static_cast<std::uint32_t>(
-        std::clamp(static_cast<int>(view.samples), 1, std::max(1, state.device->info().largest_sample_count)));
+        std::clamp(static_cast<int>(view.samples), 1, std::max(1, state.device.info().largest_sample_count)));
     TextureShape color{PixelFormat::rgba16f, view.width, view.height, samples};
     TextureShape depth = color;
     depth.format = PixelFormat::depth32f;

@@ -104,7 +104,7 @@ Status StreamOut::build() {
 Status StreamOut::build_pages() {
     const Face& face = *face_;
     sparse_ = std::make_unique<SparseBlocks>(face);
-    const std::uint64_t largest = device_->info().largest_storage_block_bytes / vec3_bytes;
+    const std::uint64_t largest = device_.info().largest_storage_block_bytes / vec3_bytes;
     const auto target_count = static_cast<std::uint32_t>(face.targets.size());
 
     std::uint32_t first = 0;
@@ -115,7 +115,7 @@ Status StreamOut::build_pages() {
         if (last == first) {
             return Error{face.path + ": target \"" + face.targets[first].name + "\" moves " +
                          std::to_string(face.targets[first].vertices.size()) + " vertices; " +
-                         device_->info().renderer + " holds " + std::to_string(largest) + " in one block"};
+                         device_.info().renderer + " holds " + std::to_string(largest) + " in one block"};
         }
         Page page;
         page.first_target = first;

@@ -69,7 +69,7 @@ private:
         std::uint64_t active_deltas = 0;
     };
 
-    StreamOut(const Device& device, const Face& face) : device_(&device), face_(&face) {}
+    StreamOut(Device device, const Face& face) : device_(std::move(device)), face_(&face) {}
     Status build();
     Status build_pages();
     std::vector<Range> ranges(NormalMethod method) const;
@@ -81,7 +81,7 @@ private:
     void begin(const gl::Program& program);
     void ensure_topology();
 
-    const Device* device_;
+    Device device_;
     const Face* face_;
     std::vector<Range> moved_ranges_, moved_ranges_recomputed_;
     bool has_normal_deltas_ = false, has_tangent_deltas_ = false;

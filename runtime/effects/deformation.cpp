@@ -51,7 +51,7 @@ std::string work_of(StreamOut& stream_out, std::size_t active) {
            (work.passes == 1 ? " pass, " : " passes, ") + std::to_string(work.deltas) + " deltas";
 }
 
-Study study_of(Device& device, const Face& face, double millimetres_a_unit, std::size_t active) {
+Study study_of(const Device& device, const Face& face, double millimetres_a_unit, std::size_t active) {
     std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
     Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
                     std::to_string(face.positions.size()) + " vertices",
@@ -98,7 +98,7 @@ Study study_of(Device& device, const Face& face, double millimetres_a_unit, std:
     return study;
 }
 
-std::vector<Study> studies(Device& device, const Face& face, double millimetres_a_unit, bool quick) {
+std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool quick) {
     std::vector<Study> result;
     for (const std::size_t count : study_counts(face, quick)) {
         result.push_back(study_of(device, face, millimetres_a_unit, count));

@@ -43,7 +43,7 @@ void declare(CharacterState& state) {
         .modifies(state.resources.tangents);
 }
 
-Study study_of(Device& device, const Face& face, std::size_t active) {
+Study study_of(const Device& device, const Face& face, std::size_t active) {
     std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
     Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
                     std::to_string(face.positions.size()) + " vertices",
@@ -73,7 +73,7 @@ Study study_of(Device& device, const Face& face, std::size_t active) {
     return study;
 }
 
-std::vector<Study> studies(Device& device, const Face& face, double /*millimetres_a_unit*/, bool quick) {
+std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool quick) {
     std::vector<Study> result;
     for (const std::size_t count : study_counts(face, quick)) result.push_back(study_of(device, face, count));
     return result;

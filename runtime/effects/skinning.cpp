@@ -42,7 +42,7 @@ void declare(CharacterState& state) {
 }
 
 /// The CPU's loop in single precision is the twin; both start from the rest surface.
-std::vector<Study> studies(Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
+std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
     if (face.joints.empty()) return {};
     struct Kept {
         Character character;

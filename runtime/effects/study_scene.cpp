@@ -4,7 +4,7 @@
 
 namespace blush {
 
-std::shared_ptr<StudyScene> make_study_scene(Device& device, const Face& face, std::size_t active_count) {
+std::shared_ptr<StudyScene> make_study_scene(const Device& device, const Face& face, std::size_t active_count) {
     Result<Character> character = Character::create(device, face);
     if (!character) return nullptr;
     auto scene = std::make_shared<StudyScene>(StudyScene{*std::move(character), {}, {}});

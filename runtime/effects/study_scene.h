@@ -20,7 +20,7 @@ struct StudyScene {
 };
 
 /// The first `active_count` targets at weights that differ (0.3 to 0.9). Nothing when the face does not fit the device.
-std::shared_ptr<StudyScene> make_study_scene(Device& device, const Face& face, std::size_t active_count);
+std::shared_ptr<StudyScene> make_study_scene(const Device& device, const Face& face, std::size_t active_count);
 
 /// Numbers of active targets worth measuring on a face: one, about a dozen (a usual frame), all of them.
 std::vector<std::size_t> study_counts(const Face& face, bool quick);

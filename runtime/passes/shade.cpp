@@ -25,7 +25,7 @@ shared::FrameBlock frame_block(const Camera& camera) {
     block.camera_world = world_from_view[3];
     block.lights[0] = {world_direction(world_from_view, {-0.55F, 0.55F, 0.75F}), {1.75F, 1.62F, 1.48F, 0}};
     block.lights[1] = {world_direction(world_from_view, {0.9F, 0.05F, 0.55F}), {0.34F, 0.38F, 0.46F, 0}};
-    block.lights[2] = {world_direction(world_from_view, {0.55F, 0.65F, -0.85F}), {1.5F, 1.6F, 1.75F, 0}};
+    block.lights[2] = {world_direction(world_from_view, {0.55F, 0.65F, -0.85F}), {0.9F, 0.97F, 1.05F, 0}};
     block.sky_radiance_linear = {0.20F, 0.215F, 0.24F, 0};
     block.ground_radiance_linear = {0.085F, 0.075F, 0.07F, 0};
     return block;

@@ -1,0 +1,113 @@
+/// blush evaluate: the deformed mesh as numbers.
+
+#include <cmath>
+#include <iostream>
+
+#include "rig/deform.h"
+#include "rig/head_and_eyes.h"
+#include "runtime/face_file.h"
+#include "runtime/output_file.h"
+#include "tools/blush/options.h"
+
+namespace blush::tool {
+namespace {
+
+struct Options {
+    std::string face, on = "cpu", output, space = "mesh";
+    PoseOptions pose;
+    bool check_finite = false;
+};
+
+/// The first vertex with a NaN or an infinity, as --check-finite reports it.
+std::optional<NotFinite> find_not_finite(const Character::Surface& surface, const std::string& pass) {
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+        for (glm::length_t c = 0; c < 3; ++c) {
+            const std::string place = "vertex " + std::to_string(v) + " component " + std::to_string(c);
+            if (!std::isfinite(surface.positions[v][c])) return NotFinite{pass, "positions", place, surface.positions[v][c]};
+            if (!std::isfinite(surface.normals[v][c])) return NotFinite{pass, "normals", place, surface.normals[v][c]};
+        }
+    }
+    return std::nullopt;
+}
+
+Result<Character::Surface> evaluate_on_cpu(const Face& face, const Options& options) {
+    const Rig rig(face);
+    std::vector<float> controls(rig.control_names().size());
+    if (Status set = options.pose.apply(face, rig, controls); !set) return set.error();
+    EffectSettings settings;
+    for (const std::string& setting : options.pose.settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos) return Error{"--setting " + setting + ": not NAME=CHOICE"};
+        if (Status set = settings.set(setting.substr(0, equals), setting.substr(equals + 1)); !set) return set.error();
+    }
+    Pose pose = rig.rest_pose();
+    rig.evaluate(controls, pose);
+    Deformer deformer(face);
+    DeformedSurface surface;
+    deformer.deform(pose.weights, static_cast<NormalMethod>(settings.choice("normals", "source")), surface);
+    return Character::Surface{std::move(surface.positions), std::move(surface.normals), std::move(surface.tangents)};
+}
+
+/// Moves each mesh to where its first node stands in the world at rest.
+void place_in_world(const Face& face, Character::Surface& surface) {
+    Pose pose;
+    for (const Node& node : face.nodes) pose.nodes.push_back(node.rest);
+    std::vector<glm::mat4> world(face.nodes.size());
+    world_from_nodes(face, pose, {}, world);
+    for (const Primitive& primitive : face.primitives) {
+        const auto node = std::ranges::find(face.nodes, static_cast<std::int32_t>(primitive.mesh), &Node::mesh);
+        if (node == face.nodes.end()) continue;
+        const glm::mat4& matrix = world[static_cast<std::size_t>(node - face.nodes.begin())];
+        for (std::uint32_t v = primitive.first_vertex; v < primitive.first_vertex + primitive.vertex_count; ++v) {
+            surface.positions[v] = glm::vec3(matrix * glm::vec4(surface.positions[v], 1));
+            surface.normals[v] =
+                normalized_or(glm::transpose(glm::inverse(glm::mat3(matrix))) * surface.normals[v], surface.normals[v]);
+        }
+    }
+}
+
+int evaluate(const Options& options) {
+    const Result<Face> face = load_face(face_path(options.face));
+    if (!face) return fail(face.error());
+    Character::Surface surface;
+    if (options.on == "cpu") {
+        Result<Character::Surface> evaluated = evaluate_on_cpu(*face, options);
+        if (!evaluated) return fail(evaluated.error());
+        surface = *std::move(evaluated);
+    } else {
+        Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
+        if (!stage) return fail(stage.error());
+        surface = (*stage)->character.read_deformed();
+    }
+    if (options.check_finite) {
+        FrameReport report;
+        report.not_finite = find_not_finite(surface, "evaluate on " + options.on);
+        if (const int found = report_not_finite(report); found != 0) return found;
+    }
+    if (options.space == "world") place_in_world(*face, surface);
+    if (Status written = write_surface(options.output, surface.positions, surface.normals, face->indices); !written) {
+        return fail(written.error());
+    }
+    std::cout << options.output << ": " << surface.positions.size() << " vertices, " << face->indices.size() / 3
+              << " triangles\n";
+    return 0;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, int& exit_status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "evaluate", "Write the deformed mesh: every vertex of the file, all primitives in file order, before joints");
+    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
+    options->pose.add_to(*command);
+    command->add_option("--on", options->on, "Where to compute")->check(CLI::IsMember({"cpu", "gpu"}))->capture_default_str();
+    command->add_option("--space", options->space, "mesh: the mesh's own space; world: after its node's place in the scene")
+        ->check(CLI::IsMember({"mesh", "world"}))
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "A .ply or .obj file")->required();
+    command->add_flag("--check-finite", options->check_finite, "Fail on any NaN or infinity");
+    command->callback([options, &exit_status] { exit_status = evaluate(*options); });
+}
+
+}  // namespace blush::tool

@@ -1,0 +1,154 @@
+/// blush info: what a file holds, and what of it was not understood.
+
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "runtime/face_file.h"
+#include "tools/blush/options.h"
+
+namespace blush::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+float largest_move(const Target& target) {
+    float largest = 0;
+    for (const glm::vec3 delta : target.position_deltas) largest = std::max(largest, glm::length(delta));
+    return largest;
+}
+
+std::uint32_t vertices_of(const Face& face, const Mesh& mesh) {
+    std::uint32_t count = 0;
+    for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
+        count += face.primitives[mesh.first_primitive + p].vertex_count;
+    }
+    return count;
+}
+
+std::uint32_t triangles_of(const Face& face, const Mesh& mesh) {
+    std::uint32_t count = 0;
+    for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
+        count += face.primitives[mesh.first_primitive + p].index_count / 3;
+    }
+    return count;
+}
+
+Json describe(const Face& face) {
+    Json json;
+    json["file"] = face.path;
+    json["vertices"] = face.positions.size();
+    json["triangles"] = face.indices.size() / 3;
+    json["meshes"] = Json::array();
+    for (const Mesh& mesh : face.meshes) {
+        json["meshes"].push_back({{"name", mesh.name},
+                                  {"primitives", mesh.primitive_count},
+                                  {"vertices", vertices_of(face, mesh)},
+                                  {"triangles", triangles_of(face, mesh)}});
+    }
+    json["targets"] = Json::array();
+    for (const Target& target : face.targets) {
+        json["targets"].push_back({{"name", target.name},
+                                   {"vertices_moved", target.vertices.size()},
+                                   {"largest_move", largest_move(target)},
+                                   {"own_normals", !target.normal_deltas.empty()},
+                                   {"default_weight", target.default_weight}});
+    }
+    json["materials"] = Json::array();
+    for (const Material& material : face.materials) {
+        const auto image = material.base_color_srgb.image;
+        json["materials"].push_back(
+            {{"name", material.name},
+             {"base_color_image", image < 0 ? Json() : Json(face.images[static_cast<std::size_t>(image)].name)},
+             {"normal_map", material.normal.image >= 0},
+             {"roughness", material.roughness},
+             {"metallic", material.metallic}});
+    }
+    json["images"] = Json::array();
+    for (const Image& image : face.images) {
+        json["images"].push_back({{"name", image.name},
+                                  {"width", image.width},
+                                  {"height", image.height},
+                                  {"channels", image.channels},
+                                  {"bits", image.bytes.empty() ? 32 : 8}});
+    }
+    json["nodes"] = face.nodes.size();
+    json["skins"] = face.skins.size();
+    json["animations"] = Json::array();
+    for (const Animation& animation : face.animations) {
+        json["animations"].push_back({{"name", animation.name},
+                                      {"duration_seconds", animation.duration_seconds},
+                                      {"node_channels", animation.nodes.size()},
+                                      {"weight_channels", animation.weights.size()}});
+    }
+    json["not_understood"] = face.notes;
+    return json;
+}
+
+void print(const Json& json) {
+    const auto text = [](const Json& value) { return value.get<std::string>(); };
+    std::cout << text(json["file"]) << ": " << json["vertices"] << " vertices, " << json["triangles"] << " triangles, "
+              << json["nodes"] << " nodes, " << json["skins"] << " skins\n";
+    std::cout << "\nmeshes (" << json["meshes"].size() << ")\n";
+    for (const Json& mesh : json["meshes"]) {
+        std::cout << "  " << (text(mesh["name"]).empty() ? "(unnamed)" : text(mesh["name"])) << ": " << mesh["vertices"]
+                  << " vertices, " << mesh["triangles"] << " triangles, " << mesh["primitives"] << " primitives\n";
+    }
+    std::cout << "\ntargets (" << json["targets"].size() << "): name, vertices moved, largest move, default weight\n";
+    for (const Json& target : json["targets"]) {
+        char line[160];
+        std::snprintf(line, sizeof line, "  %-28s %8zu  %12.6g  %8.4g%s\n", text(target["name"]).c_str(),
+                      target["vertices_moved"].get<std::size_t>(), target["largest_move"].get<double>(),
+                      target["default_weight"].get<double>(),
+                      target["own_normals"].get<bool>() ? "" : "  (no normals of its own)");
+        std::cout << line;
+    }
+    std::cout << "\nmaterials (" << json["materials"].size() << ")\n";
+    for (const Json& material : json["materials"]) {
+        std::cout << "  " << (text(material["name"]).empty() ? "(unnamed)" : text(material["name"])) << ": roughness "
+                  << material["roughness"] << ", metallic " << material["metallic"]
+                  << (material["base_color_image"].is_null() ? "" : ", base colour map")
+                  << (material["normal_map"].get<bool>() ? ", normal map" : "") << "\n";
+    }
+    for (const Json& image : json["images"]) {
+        std::cout << "  image " << image["name"] << ": " << image["width"] << "x" << image["height"] << ", "
+                  << image["channels"] << " channels, " << image["bits"] << " bits\n";
+    }
+    std::cout << "\nanimations (" << json["animations"].size() << ")\n";
+    for (const Json& animation : json["animations"]) {
+        std::cout << "  " << (text(animation["name"]).empty() ? "(unnamed)" : text(animation["name"])) << ": "
+                  << animation["duration_seconds"] << " s, " << animation["weight_channels"] << " weight and "
+                  << animation["node_channels"] << " node channels\n";
+    }
+    std::cout << "\nnot understood (" << json["not_understood"].size() << ")\n";
+    for (const Json& note : json["not_understood"]) std::cout << "  " << text(note) << "\n";
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, int& exit_status) {
+    struct Options {
+        std::string face;
+        bool json = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("info", "Say what a face file holds: meshes, targets, materials, animations");
+    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options, &exit_status] {
+        const Result<Face> face = load_face(face_path(options->face));
+        if (!face) {
+            exit_status = fail(face.error());
+            return;
+        }
+        const Json json = describe(*face);
+        if (options->json) {
+            // Names come from a file and may be no valid UTF-8: such bytes are replaced.
+            std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+        } else {
+            print(json);
+        }
+    });
+}
+
+}  // namespace blush::tool

@@ -1,0 +1,112 @@
+#include "tools/blush/options.h"
+
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "rig/names.h"
+#include "runtime/face_file.h"
+
+namespace blush::tool {
+namespace fs = std::filesystem;
+
+int fail(const Error& error) {
+    std::cerr << "blush: " << error.message << "\n";
+    return bad_input;
+}
+
+Result<Size> parse_size(const std::string& text) {
+    constexpr std::uint32_t largest_side = 16'384;  // what GL 4.5 devices commonly draw to
+    Size size;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool crossed = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height = crossed ? std::from_chars(width.ptr + 1, end, size.height) : width;
+    if (!crossed || height.ec == std::errc::invalid_argument || height.ptr != end) {
+        return Error{"--size " + text + ": not WIDTHxHEIGHT in pixels, like 960x960"};
+    }
+    const bool overflow = height.ec == std::errc::result_out_of_range;
+    if (overflow || size.width == 0 || size.height == 0 || size.width > largest_side || size.height > largest_side) {
+        return Error{"--size " + text + ": a side may be 1 to " + std::to_string(largest_side) + " pixels"};
+    }
+    return size;
+}
+
+fs::path asset_folder() {
+    std::error_code failed;
+    const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+    if (failed) return {};
+    for (const char* place : {"../assets", "../share/blush"}) {
+        const fs::path folder = program.parent_path() / place;
+        if (fs::is_directory(folder, failed)) return folder.lexically_normal();
+    }
+    return {};
+}
+
+fs::path face_path(const std::string& name) { return name == "default" ? asset_folder() / "face.glb" : fs::path(name); }
+
+void PoseOptions::add_to(CLI::App& command, bool with_settings) {
+    command.add_option("--set", sets, "Controls and their values, such as jawOpen=0.6,mouthSmileLeft=1; the others are 0");
+    command.add_flag("--defaults", defaults, "Start from the file's own weights instead of zero");
+    if (with_settings) {
+        command.add_option("--setting", settings, "Setting of an effect, such as deformation.method=passes");
+    }
+}
+
+Status PoseOptions::apply(const Face& face, const Rig& rig, std::span<float> controls) const {
+    std::ranges::fill(controls, 0.0F);
+    for (std::size_t t = 0; defaults && t < face.targets.size(); ++t) controls[t] = face.targets[t].default_weight;
+    for (const std::string& list : sets) {
+        for (const std::string& part : CLI::detail::split(list, ',')) {
+            const std::size_t equals = part.rfind('=');
+            if (equals == std::string::npos) return Error{"--set " + part + ": not NAME=VALUE"};
+            const std::string name = part.substr(0, equals), number = part.substr(equals + 1);
+            float value = 0;
+            const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
+            if (read.ec != std::errc() || read.ptr != number.data() + number.size() || !std::isfinite(value)) {
+                return Error{"--set " + part + ": \"" + number + "\" is not a finite number"};
+            }
+            const std::optional<ControlId> control = rig.find(name);
+            if (!control) {
+                const std::optional<std::string> near = nearest_name(name, rig.control_names());
+                return Error{"--set " + part + ": " + face.path + " has no control \"" + name + "\"" +
+                             (near ? " (did you mean \"" + *near + "\"?)" : "")};
+            }
+            controls[static_cast<std::size_t>(*control)] = value;
+        }
+    }
+    return Done{};
+}
+
+Status PoseOptions::apply_settings(Character& character) const {
+    for (const std::string& setting : settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos) return Error{"--setting " + setting + ": not NAME=CHOICE"};
+        if (Status set = character.set(setting.substr(0, equals), setting.substr(equals + 1)); !set) {
+            return Error{"--setting " + setting + ": " + set.error().message};
+        }
+    }
+    return Done{};
+}
+
+Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const PoseOptions& pose) {
+    // The face first: a bad file should be named even on a machine without GL.
+    Result<Face> face = load_face(face_path(face_name));
+    if (!face) return face.error();
+    Result<Device> device = Device::headless();
+    if (!device) return device.error();
+    Result<Character> character = Character::create(*device, *std::move(face));
+    if (!character) return character.error();
+    auto stage = std::make_unique<Stage>(Stage{*std::move(device), *std::move(character)});
+    Character& ready = stage->character;
+    if (Status set = pose.apply(ready.face(), ready.rig(), ready.controls()); !set) return set.error();
+    if (Status set = pose.apply_settings(ready); !set) return set.error();
+    return stage;
+}
+
+int report_not_finite(const FrameReport& report) {
+    return report.not_finite ? fail({"--check-finite: " + report.not_finite->sentence()}) : 0;
+}
+
+}  // namespace blush::tool

@@ -1,0 +1,62 @@
+#pragma once
+/// What several commands share: the face, its controls, the size, the settings.
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/character.h"
+
+namespace blush::tool {
+
+/// Exit status of bad input (house rule).
+inline constexpr int bad_input = 2;
+
+/// Prints the sentence on standard error and returns bad_input.
+int fail(const Error& error);
+
+struct Size {
+    std::uint32_t width = 0, height = 0;
+};
+/// "960x540". Error: anything else, or a side that is not 1 to 16384.
+Result<Size> parse_size(const std::string& text);
+
+/// The face file that a user means: "default" is the one that this program ships.
+std::filesystem::path face_path(const std::string& name);
+/// Folder of what the program ships, beside the build or the installation; empty when there is none.
+std::filesystem::path asset_folder();
+
+/// --set, --defaults, --setting: what a frame starts from.
+struct PoseOptions {
+    std::vector<std::string> sets;      ///< "jawOpen=0.6", several separated by commas
+    std::vector<std::string> settings;  ///< "deformation.method=passes"
+    bool defaults = false;              ///< start from the file's own weights instead of zero
+
+    void add_to(CLI::App& command, bool with_settings = true);
+    /// Writes one value for each control of the rig. Error: an unknown control (with the nearest one), a bad number.
+    Status apply(const Face& face, const Rig& rig, std::span<float> controls) const;
+    Status apply_settings(Character& character) const;
+};
+
+/// A headless device and a character with its pose set.
+struct Stage {
+    Device device;
+    Character character;
+};
+Result<std::unique_ptr<Stage>> make_stage(const std::string& face, const PoseOptions& pose);
+
+/// Prints the finding of --check-finite and returns bad_input; 0 when there is none.
+int report_not_finite(const FrameReport& report);
+
+// One function a command: adds it to `app` and sets `exit_status` when it has run.
+void add_info(CLI::App& app, int& exit_status);
+void add_evaluate(CLI::App& app, int& exit_status);
+void add_render(CLI::App& app, int& exit_status);
+void add_play(CLI::App& app, int& exit_status);
+void add_explain(CLI::App& app, int& exit_status);
+void add_accuracy(CLI::App& app, int& exit_status);
+
+}  // namespace blush::tool

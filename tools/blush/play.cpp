@@ -1,0 +1,230 @@
+/// blush play: a performance into a window or into files.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "runtime/offscreen.h"
+#include "runtime/output_file.h"
+#include "tools/blush/options.h"
+#include "tools/blush/playback.h"
+#include "tools/blush/progress.h"
+#include "tools/blush/video.h"
+#include "tools/blush/viewer.h"
+
+namespace blush::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string face, performance, output, contact_sheet, size = "720x720";
+    PoseOptions pose;
+    double frames_a_second = 30;
+    float from_seconds = 0, to_seconds = -1, yaw_degrees = 0, pitch_degrees = 0;
+    bool check_finite = false;
+    int viewer_frames = 0;
+};
+
+struct Range {
+    float from_seconds = 0, to_seconds = 0;
+    std::size_t frames = 1;
+};
+
+Result<Range> range_of(const Options& options, float duration_seconds) {
+    Range range{options.from_seconds, options.to_seconds < 0 ? duration_seconds : options.to_seconds, 1};
+    if (range.to_seconds < range.from_seconds || range.from_seconds > duration_seconds) {
+        return Error{"--from " + std::to_string(range.from_seconds) + " --to " + std::to_string(range.to_seconds) +
+                     ": not a part of a performance of " + std::to_string(duration_seconds) + " seconds"};
+    }
+    const double frames = std::floor((double{range.to_seconds} - double{range.from_seconds}) * options.frames_a_second);
+    constexpr double most_frames = 1e6;  // more than nine hours at 30 a second: a slip of the finger
+    if (frames > most_frames) return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
+    range.frames = static_cast<std::size_t>(frames) + 1;
+    return range;
+}
+
+/// "frames/%05d.png" with a number; the pattern must hold one such place and nothing else that begins with %.
+std::optional<std::string> numbered(const std::string& pattern, std::size_t number) {
+    const std::size_t percent = pattern.find('%');
+    if (percent == std::string::npos || pattern.find('%', percent + 1) != std::string::npos) return std::nullopt;
+    const std::size_t end = pattern.find_first_not_of("0123456789", percent + 1);
+    if (end == std::string::npos || pattern[end] != 'd' || end > percent + 3) return std::nullopt;
+    const std::string width = pattern.substr(percent + 1, end - percent - 1);
+    std::string digits = std::to_string(number);
+    const std::size_t wanted = width.empty() ? 0 : std::stoul(width);
+    if (digits.size() < wanted) digits.insert(0, wanted - digits.size(), '0');
+    return pattern.substr(0, percent) + digits + pattern.substr(end + 1);
+}
+
+/// Draws the frames of a range one after the other.
+class FrameSource {
+public:
+    FrameSource(Stage& stage, Playback& playback, Offscreen& offscreen, const Options& options)
+        : stage_(stage), playback_(playback), offscreen_(offscreen), view_(offscreen.view()) {
+        const float aspect = static_cast<float>(view_.width) / static_cast<float>(view_.height);
+        OrbitCamera orbit = stage.character.framing(aspect);
+        orbit.yaw_radians = glm::radians(options.yaw_degrees);
+        orbit.pitch_radians = glm::radians(options.pitch_degrees);
+        view_.camera = orbit.camera(aspect);
+        view_.check_finite = options.check_finite;
+    }
+    Result<Image> frame_at(double time_seconds) {
+        playback_.seek(static_cast<float>(time_seconds));
+        const FrameReport& report = stage_.character.draw(view_);
+        if (report.not_finite) {
+            return Error{"--check-finite: at " + std::to_string(time_seconds) + " s " + report.not_finite->sentence()};
+        }
+        return offscreen_.read();
+    }
+
+private:
+    Stage& stage_;
+    Playback& playback_;
+    Offscreen& offscreen_;
+    View view_;
+};
+
+Status write_frames(FrameSource& source, const Options& options, const Range& range) {
+    const bool video = fs::path(options.output).extension() == ".mp4" || fs::path(options.output).extension() == ".gif";
+    Progress progress("frames", range.frames);
+    const auto each = [&](const std::function<Status(std::size_t, const Image&)>& keep) -> Status {
+        for (std::size_t f = 0; f < range.frames; ++f) {
+            const double time = double{range.from_seconds} + static_cast<double>(f) / options.frames_a_second;
+            const Result<Image> image = source.frame_at(time);
+            if (!image) return image.error();
+            if (Status kept = keep(f, *image); !kept) return kept;
+            progress.step();
+        }
+        return Done{};
+    };
+    if (!video) {
+        return each([&](std::size_t f, const Image& image) { return write_image(*numbered(options.output, f), image); });
+    }
+    return write_beside(options.output, [&](const fs::path& beside) -> Status {
+        const Result<Size> size = parse_size(options.size);
+        Result<VideoWriter> writer = VideoWriter::start(beside, size->width, size->height, options.frames_a_second);
+        if (!writer) return writer.error();
+        Status written = each([&](std::size_t, const Image& image) { return writer->add(image); });
+        return written ? writer->finish() : written;
+    });
+}
+
+/// Eight moments of the range, two rows of four.
+Status write_contact_sheet(FrameSource& source, const Options& options, const Range& range) {
+    constexpr std::uint32_t columns = 4, rows = 2;
+    Image sheet;
+    for (std::uint32_t moment = 0; moment < columns * rows; ++moment) {
+        // The middles of eight equal parts: the ends of a performance are mostly neutral.
+        const double share = (moment + 0.5) / (columns * rows);
+        const Result<Image> image =
+            source.frame_at(double{range.from_seconds} + share * (double{range.to_seconds} - double{range.from_seconds}));
+        if (!image) return image.error();
+        if (sheet.bytes.empty()) {
+            sheet.width = columns * image->width;
+            sheet.height = rows * image->height;
+            sheet.channels = 4;
+            sheet.bytes.resize(std::size_t{sheet.width} * sheet.height * 4);
+        }
+        const std::size_t left = std::size_t{moment % columns} * image->width, top = std::size_t{moment / columns} * image->height;
+        for (std::size_t y = 0; y < image->height; ++y) {
+            std::copy_n(image->bytes.begin() + static_cast<std::ptrdiff_t>(y * image->width * 4), image->width * 4,
+                        sheet.bytes.begin() + static_cast<std::ptrdiff_t>(((top + y) * sheet.width + left) * 4));
+        }
+    }
+    return write_image(options.contact_sheet, sheet);
+}
+
+/// Checks what can be checked of the output before anything is drawn. Without ffmpeg a video becomes a sequence.
+Status settle_output(Options& options) {
+    const fs::path output = options.output;
+    const bool video = output.extension() == ".mp4" || output.extension() == ".gif";
+    if (video && !have_ffmpeg()) {
+        const fs::path folder = output.parent_path() / output.stem();
+        std::cerr << "note: there is no ffmpeg program here (Debian: ffmpeg), so the frames go to " << folder.string()
+                  << "/%05d.png instead of " << options.output << "\n";
+        options.output = (folder / "%05d.png").string();
+    } else if (!video && !numbered(options.output, 0)) {
+        return Error{"-o " + options.output + ": not a .mp4 or .gif, nor a numbered picture like frames/%05d.png or .exr"};
+    }
+    if (!video || !have_ffmpeg()) {
+        std::error_code failed;
+        const fs::path folder = fs::path(options.output).parent_path();
+        if (!folder.empty() && !fs::is_directory(folder, failed) && !fs::create_directory(folder, failed)) {
+            return Error{options.output + ": cannot be written: the folder " + folder.string() + " cannot be made"};
+        }
+    }
+    return Done{};
+}
+
+int play_to_files(Options options) {
+    const Result<Size> size = parse_size(options.size);
+    if (!size) return fail(size.error());
+    Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
+    if (!stage) return fail(stage.error());
+    Character& character = (*stage)->character;
+    Result<Performance> performance = find_performance(character.face(), options.performance);
+    if (!performance) return fail(performance.error());
+    Playback playback(character, BoundPerformance(*std::move(performance), character.rig()));
+    report_matches(playback.performance(), character.face());
+    const Result<Range> range = range_of(options, playback.performance().duration_seconds());
+    if (!range) return fail(range.error());
+    if (!options.output.empty()) {
+        if (Status settled = settle_output(options); !settled) return fail(settled.error());
+    }
+
+    const bool linear = fs::path(options.output).extension() == ".exr";
+    Result<Offscreen> offscreen = Offscreen::create((*stage)->device, size->width, size->height,
+                                                    linear ? Output::linear_hdr : Output::display_srgb);
+    if (!offscreen) return fail(offscreen.error());
+    FrameSource source(**stage, playback, *offscreen, options);
+    if (!options.output.empty()) {
+        if (Status written = write_frames(source, options, *range); !written) return fail(written.error());
+        std::cout << options.output << ": " << range->frames << " frames of " << options.size << "\n";
+    }
+    if (!options.contact_sheet.empty()) {
+        if (linear) return fail({"--contact-sheet goes with pictures for a display, not with .exr"});
+        if (Status written = write_contact_sheet(source, options, *range); !written) return fail(written.error());
+        std::cout << options.contact_sheet << ": eight moments\n";
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_play(CLI::App& app, int& exit_status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("play", "Play a performance in a window, or into files with -o");
+    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
+    command->add_option("--performance", options->performance,
+                        "A Live Link Face .csv, a .json (docs/performance_format.md), an animation of the file or a "
+                        "shipped one by name; without it, the file's own animations");
+    command->add_option("--fps", options->frames_a_second, "Frames a second")->check(CLI::Range(0.01, 1000.0))->capture_default_str();
+    command->add_option("--from", options->from_seconds, "Start, seconds")->check(CLI::NonNegativeNumber);
+    command->add_option("--to", options->to_seconds, "End, seconds")->check(CLI::NonNegativeNumber);
+    command->add_option("--size", options->size, "Width and height in pixels")->capture_default_str();
+    command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left");
+    command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees");
+    options->pose.add_to(*command);
+    command->add_option("-o,--output", options->output, "out.mp4, out.gif, frames/%05d.png or frames/%05d.exr");
+    command->add_option("--contact-sheet", options->contact_sheet, "A picture of eight moments");
+    command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
+    command->add_option("--viewer-frames", options->viewer_frames, "Close the window after that many frames")->group("");
+    command->callback([options, &exit_status] {
+        if (!options->output.empty() || !options->contact_sheet.empty()) {
+            exit_status = play_to_files(*options);
+            return;
+        }
+        const Result<Size> size = parse_size(options->size);
+        if (!size) {
+            exit_status = fail(size.error());
+            return;
+        }
+        exit_status = run_viewer({options->face, options->performance, options->pose, size->width, size->height,
+                                  options->from_seconds, options->to_seconds, options->frames_a_second,
+                                  options->check_finite, options->viewer_frames});
+    });
+}
+
+}  // namespace blush::tool

@@ -1,0 +1,61 @@
+#include "tools/blush/playback.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "runtime/performance_file.h"
+#include "tools/blush/options.h"
+
+namespace blush::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string shipped_names() {
+    std::string names;
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(asset_folder() / "performances", failed)) {
+        if (entry.path().extension() == ".json") names += ", " + entry.path().stem().string();
+    }
+    return names;
+}
+
+void list(const std::string& what, std::span<const std::string> names) {
+    if (names.empty()) return;
+    std::cerr << "note: " << names.size() << " " << what << ": ";
+    for (std::size_t i = 0; i < names.size(); ++i) std::cerr << (i == 0 ? "" : ", ") << names[i];
+    std::cerr << "\n";
+}
+
+}  // namespace
+
+Result<Performance> find_performance(const Face& face, const std::string& name) {
+    if (name.empty() && !face.animations.empty()) return performance_from_animations(face, std::nullopt);
+    const std::string wanted = name.empty() ? "first_light" : name;
+    for (std::size_t a = 0; a < face.animations.size(); ++a) {
+        if (face.animations[a].name == wanted) return performance_from_animations(face, a);
+    }
+    std::error_code failed;
+    const fs::path shipped = asset_folder() / "performances" / (wanted + ".json");
+    if (wanted.find('/') == std::string::npos && fs::exists(shipped, failed)) return load_performance(shipped);
+    if (fs::exists(wanted, failed)) return load_performance(wanted);
+    std::string known;
+    for (const Animation& animation : face.animations) known += ", " + animation.name;
+    known += shipped_names();
+    return Error{"--performance " + wanted + ": neither a file, nor an animation of " + face.path +
+                 ", nor shipped (there are: " + (known.empty() ? "none" : known.substr(2)) + ")"};
+}
+
+void report_matches(const BoundPerformance& performance, const Face& face) {
+    for (const std::string& note : performance.performance().notes) std::cerr << "note: " << note << "\n";
+    list("channels without a control on " + face.path, performance.unmatched_channels());
+    list("targets of " + face.path + " without a channel", performance.undriven_targets());
+}
+
+void Playback::seek(float time_seconds) {
+    std::ranges::copy(base_, character_->controls().begin());
+    std::ranges::copy(rest_.nodes, character_->pose().nodes.begin());
+    performance_.sample(time_seconds, character_->controls(), character_->pose());
+}
+
+}  // namespace blush::tool

@@ -1,0 +1,63 @@
+/// blush render: one frame into a file.
+
+#include <iostream>
+
+#include "runtime/offscreen.h"
+#include "runtime/output_file.h"
+#include "tools/blush/options.h"
+
+namespace blush::tool {
+namespace {
+
+struct Options {
+    std::string face, output, size = "960x960";
+    PoseOptions pose;
+    bool check_finite = false, force_effects = false;
+    float yaw_degrees = 0, pitch_degrees = 0, exposure = 1;
+};
+
+int render(const Options& options) {
+    const Result<Size> size = parse_size(options.size);
+    if (!size) return fail(size.error());
+    Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
+    if (!stage) return fail(stage.error());
+    Character& character = (*stage)->character;
+
+    const bool linear = std::filesystem::path(options.output).extension() == ".exr";
+    Result<Offscreen> offscreen = Offscreen::create((*stage)->device, size->width, size->height,
+                                                    linear ? Output::linear_hdr : Output::display_srgb);
+    if (!offscreen) return fail(offscreen.error());
+    const float aspect = static_cast<float>(size->width) / static_cast<float>(size->height);
+    OrbitCamera orbit = character.framing(aspect);
+    orbit.yaw_radians = glm::radians(options.yaw_degrees);
+    orbit.pitch_radians = glm::radians(options.pitch_degrees);
+    View view = offscreen->view();
+    view.camera = orbit.camera(aspect);
+    view.exposure = options.exposure;
+    view.check_finite = options.check_finite;
+    view.force_effects = options.force_effects;
+
+    if (const int found = report_not_finite(character.draw(view)); found != 0) return found;
+    if (Status written = write_image(options.output, offscreen->read()); !written) return fail(written.error());
+    std::cout << options.output << ": " << options.size << (linear ? ", linear radiance\n" : ", sRGB\n");
+    return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("render", "Draw one frame without a window");
+    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
+    options->pose.add_to(*command);
+    command->add_option("--size", options->size, "Width and height in pixels")->capture_default_str();
+    command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left");
+    command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees");
+    command->add_option("--exposure", options->exposure, "Factor on radiance")->check(CLI::Range(1e-4, 1e4));
+    command->add_option("-o,--output", options->output, "A .png (sRGB) or .exr (linear radiance) file")->required();
+    command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
+    command->add_flag("--force-effects", options->force_effects, "Run effects that could be left out, too");
+    command->callback([options, &exit_status] { exit_status = render(*options); });
+}
+
+}  // namespace blush::tool
