@@ -142,7 +142,7 @@ public:
         add_sides("eyeSquint", [&](Index v) {
             return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12}) + pulled(v, cheek_raise * 0.35);
         });
-        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 12, .lower_degrees = -3}); });
+        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 9, .lower_degrees = -2}); });
         add_whole("jawForward", [&](Index v) { return jaw_[v] * Vec3(0, -0.6, 6); });
         add_sides("jaw", [&](Index v) { return jaw_[v] * Vec3(7, 0, 0); });
         add_whole("jawOpen", [&](Index v) { return jaw_opened(rest(v), jaw_[v]) - rest(v); });

@@ -11,7 +11,7 @@ namespace {
 
 using namespace landmark;
 
-constexpr double neck_end_y = -172;
+constexpr Vec3 neck_end_centre{0, -156, -33};
 constexpr double chin_elevation = radians(-49), brow_elevation = radians(28);
 
 /// The strip of the texture above the face holds the ears; the face has the rest.
@@ -78,7 +78,7 @@ Grid make_grid(double fineness) {
     const double mouth = elevation_of(front_point({0, stomion_y}));
     const double eye =
         elevation_of(front_point({mix(landmark::inner_canthus.x, landmark::outer_canthus.x, 0.5), canthal_y(32)}));
-    // Rows below the chin fan out to the neck's end, whose elevation differs from column to column; see place_fan.
+    // Rows below the chin have no elevation of their own, see below_chin; these only set how the texture is shared out.
     grid.elevation = Axis(radians(-78));
     grid.chin = grid.elevation.add_even(chin_elevation, steps(24));
     grid.mouth = grid.elevation.add_even(mouth, steps(15));
@@ -158,14 +158,11 @@ private:
         return p;
     }
 
-    Vec3 neck_end(int i) const {
-        double low = radians(-88), high = radians(-45);
-        for (int k = 0; k < 40; ++k) {
-            const double middle = (low + high) / 2;
-            const Vec3 p = leave_head(fan_origin, direction(grid_.azimuth.lines[static_cast<std::size_t>(i)], middle));
-            (p.y < neck_end_y ? low : high) = middle;
-        }
-        return leave_head(fan_origin, direction(grid_.azimuth.lines[static_cast<std::size_t>(i)], high));
+    /// Below the chin the fan's origin sinks into the neck while its rays level out: share 0 at the chin, 1 at the end.
+    Vec3 below_chin(int i, double share) const {
+        const Vec3 origin = fan_origin + (neck_end_centre - fan_origin) * share;
+        const double elevation = mix(chin_elevation, 0, share);
+        return leave_head(origin, direction(grid_.azimuth.lines[static_cast<std::size_t>(i)], elevation));
     }
 
     /// How much of a slit's bend is left `rows` rows away.
@@ -175,7 +172,7 @@ private:
         const double eye_reach = 0.62 * (grid_.brow - grid_.eye), mouth_reach = 0.8 * (grid_.mouth - grid_.chin);
         for (int i = 0; i <= grid_.last_column(); ++i) {
             const double azimuth = grid_.azimuth.lines[static_cast<std::size_t>(i)];
-            const double end = elevation_of(neck_end(i));
+
             const auto level = [&](int j) { return grid_.elevation.lines[static_cast<std::size_t>(j)]; };
 
             Vec3 eye_up{}, eye_low{}, lip{};
@@ -195,13 +192,13 @@ private:
             }
             for (int j = 0; j < grid_.last_row(); ++j) {
                 double elevation = level(j);
-                if (j < grid_.chin)
-                    elevation = mix(end, chin_elevation, std::pow(static_cast<double>(j) / grid_.chin, 1.0));
+
                 elevation += bend(j - grid_.eye, eye_reach) * (j < grid_.eye ? low_bend : up_bend);
                 elevation += bend(j - grid_.mouth, mouth_reach) * lip_bend;
-                positions_[id(i, j)] = leave_head(fan_origin, direction(azimuth, elevation));
+                positions_[id(i, j)] = j < grid_.chin ? below_chin(i, 1 - static_cast<double>(j) / grid_.chin)
+                                                      : leave_head(fan_origin, direction(azimuth, elevation));
             }
-            positions_[id(i, 0)] = neck_end(i);
+
             pinned_[id(i, 0)] = 1;
             if (i >= grid_.inner_canthus && i <= grid_.outer_canthus) {
                 pin(i, grid_.eye, eye_low, eye_up);
@@ -260,18 +257,19 @@ private:
     /// u follows the columns and v the rows, the back half of the head at half density. Slits gape a little in the
     /// texture so that the linings have room there.
     void place_texture() {
-        const auto spread = [](const std::vector<double>& lines, double from, double to, double density_outside) {
+        const auto spread = [](const std::vector<double>& lines, double from, double density_before, double to,
+                               double density_after) {
             std::vector<double> place{0};
             for (std::size_t k = 1; k < lines.size(); ++k) {
                 const double middle = (lines[k] + lines[k - 1]) / 2;
-                const double density = middle > from && middle < to ? 1 : density_outside;
+                const double density = middle < from ? density_before : middle > to ? density_after : 1;
                 place.push_back(place.back() + density * (lines[k] - lines[k - 1]));
             }
             for (double& x : place) x /= place.back();
             return place;
         };
-        const auto u = spread(grid_.azimuth.lines, -1, radians(75), 0.4);
-        const auto v = spread(grid_.elevation.lines, radians(-60), radians(50), 0.6);
+        const auto u = spread(grid_.azimuth.lines, -1, 1, radians(75), 0.4);
+        const auto v = spread(grid_.elevation.lines, chin_elevation, 2.0, radians(50), 0.6);
         const double eye_reach = 0.62 * (grid_.brow - grid_.eye), mouth_reach = 0.8 * (grid_.mouth - grid_.chin);
         for (int j = 0; j <= grid_.last_row(); ++j) {
             for (int i = 0; i <= grid_.last_column(); ++i) {

@@ -136,7 +136,8 @@ Color skin_color(const Vec3& p, const Vec3& normal) {
     toward(shadow, 0.16 * bell(half, {19.5, -49, 86}, {3.5, 9, 14}));  // nasolabial fold
     // Freckles: a few of the lattice's cells, over the nose and the cheeks.
     const double freckled = bell(half, {24, -26, 84}, {26, 13, 26});
-    toward(Color(0.66, 0.44, 0.34), 0.35 * freckled * smooth_step(0.45, 0.75, noise(p / 1.7 + Vec3(91, 13, 47))));
+    const double speck = fractal_noise(Vec3(p.x + 0.6 * p.y, p.y - 0.6 * p.x, p.z) / 1.25 + Vec3(91, 13, 47), 2);
+    toward(Color(0.66, 0.44, 0.34), 0.26 * freckled * smooth_step(0.65, 1.1, speck));
     const double grain = 1 + 0.022 * fractal_noise(p / 1.3, 3) + 0.018 * fractal_noise(p / 5.0, 2);
     return c * grain;
 }
@@ -199,6 +200,28 @@ Picture paint_skin(const Head& head, int side) {
         const std::size_t at =
             3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x));
         for (int k = 0; k < 3; ++k) picture.rgb[at + static_cast<std::size_t>(k)] = to_byte(c[k]);
+    });
+    return picture;
+}
+
+Picture paint_roughness(const Head& head, int side) {
+    constexpr double skin = 0.52, oily = 0.43, lip = 0.38, hair = 0.82, wet = 0.3;
+    Picture picture{side,
+                    std::vector<unsigned char>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 3)};
+    for (std::size_t k = 1; k < picture.rgb.size(); k += 3) picture.rgb[k] = to_byte(skin);
+    for_each_texel(head, side, [&](int x, int y, const Spot& spot) {
+        const Vec3 half{std::abs(spot.p.x), spot.p.y, spot.p.z};
+        const double shine = std::max(bell(half, {0, -25, 104}, {14, 26, 24}), bell(half, {0, 40, 90}, {34, 22, 24}));
+        double roughness = mix(skin, oily, shine);
+        if (spot.part == Part::skin) {
+            roughness = mix(roughness, lip, 0.8 * lip_cover(spot.p));
+            roughness = mix(roughness, hair, std::max(hair_paint(spot.p), 0.8 * brow_cover(spot.p)));
+        }
+        if (spot.part == Part::mouth_lining || spot.part == Part::lid_lining)
+            roughness = mix(lip, wet, smooth_step(0, 0.3, spot.depth));
+        picture
+            .rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)) + 1] =
+            to_byte(roughness);
     });
     return picture;
 }

@@ -17,6 +17,8 @@ struct Picture {
 Picture paint_skin(const Head& head, int side);
 /// Tangent-space normal map of pores and fine skin relief (OpenGL convention: green up).
 Picture paint_pores(const Head& head, int side);
+/// Roughness of the skin in the green channel, metallic (none) in the blue, as glTF has them: hair, skin, lips, lining.
+Picture paint_roughness(const Head& head, int side);
 /// Sclera, iris and pupil, sRGB, in the eye's own polar layout.
 Picture paint_eye(int side);
 
