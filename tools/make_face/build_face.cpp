@@ -15,34 +15,41 @@ FaceParts build_face(std::size_t vertices) {
     grow_hair(head);
 
     enum MaterialIndex : std::size_t { skin, eye, tooth, gum, tongue, lash };
-    constexpr int skin_texture_side = 2048, pore_texture_side = 2048, eye_texture_side = 1024;
+    constexpr int skin_texture_side = 2048, pore_texture_side = 1024, eye_texture_side = 1024,
+                  roughness_texture_side = 512;
     face.materials.resize(6);
     face.materials[skin] = {.name = "skin",
-                            .roughness = 0.5,
+                            .roughness = 1,
                             .base_color_png = png(paint_skin(head, skin_texture_side)),
-                            .normal_png = png(paint_pores(head, pore_texture_side))};
-    face.materials[eye] = {
-        .name = "eye", .roughness = 0.1, .base_color_png = png(paint_eye(eye_texture_side)), .normal_png = {}};
+                            .normal_png = png(paint_pores(head, pore_texture_side)),
+                            .roughness_png = png(paint_roughness(head, roughness_texture_side))};
+    face.materials[eye] = {.name = "eye",
+                           .roughness = 0.1,
+                           .base_color_png = png(paint_eye(eye_texture_side)),
+                           .normal_png = {},
+                           .roughness_png = {}};
     face.materials[tooth] = {.name = "teeth",
                              .base_color_linear = {0.76, 0.69, 0.58, 1},
                              .roughness = 0.25,
                              .base_color_png = {},
-                             .normal_png = {}};
+                             .normal_png = {},
+                             .roughness_png = {}};
     face.materials[gum] = {.name = "gums",
-                           .base_color_linear = {0.45, 0.12, 0.11, 1},
                            .roughness = 0.35,
-                           .base_color_png = {},
-                           .normal_png = {}};
+                           .base_color_png = png(paint_gum(128)),
+                           .normal_png = {},
+                           .roughness_png = {}};
     face.materials[tongue] = {.name = "tongue",
-                              .base_color_linear = {0.47, 0.14, 0.13, 1},
                               .roughness = 0.4,
-                              .base_color_png = {},
-                              .normal_png = {}};
+                              .base_color_png = png(paint_tongue(128)),
+                              .normal_png = {},
+                              .roughness_png = {}};
     face.materials[lash] = {.name = "lashes",
                             .base_color_linear = {0.012, 0.008, 0.006, 1},
                             .roughness = 0.6,
                             .base_color_png = {},
                             .normal_png = {},
+                            .roughness_png = {},
                             .double_sided = true};
 
     face.nodes.push_back({.name = "head"});

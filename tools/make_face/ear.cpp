@@ -5,17 +5,12 @@
 namespace blush::make_face {
 namespace {
 
-/// A place on the ear in its own plane: a to the front of the face, b up, c away from the head; millimetres.
-struct Profile {
-    double s, height;
-};
-
-/// Radius of the outline at `angle` (0 to the front, a right angle up). Farkas 1994: length 62 mm, breadth 35 mm.
-double outline(double angle) {
-    const double a = std::cos(angle), b = std::sin(angle);
+/// The outline at `angle` (0 to the front, a right angle up). Farkas 1994: length 62 mm, breadth 35 mm.
+Vec2 outline(double angle) {
+    const double b = std::sin(angle);
     const double half_length = b > 0 ? 32 : 30;
     const double half_breadth = b > 0 ? 18.5 : mix(18.5, 11.5, smooth_step(0, 0.9, -b));
-    return 1 / std::sqrt(square(a / half_breadth) + square(b / half_length));
+    return {half_breadth * std::cos(angle), half_length * b};
 }
 
 /// Height of the front side over the ear's plane at the fraction s of the outline.
@@ -30,7 +25,9 @@ double front_height(double s, double angle) {
     const double canal = -7 * bell(s, 0.16);
     const double folds = concha + antihelix + helix + tragus + canal;
     const double plain = 1.5 + 2.5 * bell(s - 0.7, 0.35);
-    return mix(folds, s < 0.4 ? folds : plain, lobe);
+    // In front the rim dives into the cheek; only the helix's root and the tragus stay out.
+    const double sunk = 11 * smooth_step(0.25, 0.85, a) * smooth_step(0.62, 1, s);
+    return mix(folds, s < 0.4 ? folds : plain, lobe) - sunk;
 }
 
 }  // namespace
@@ -40,14 +37,15 @@ void add_left_ear(Mesh& mesh, double fineness, const Vec2& uv_corner, double uv_
     const int front_rings = static_cast<int>(std::lround(19 * fineness));
     const int back_rings = static_cast<int>(std::lround(7 * fineness));
 
-    // The plane leans: its rear stands off the head by 28 degrees and its top leans back by 14.
-    const Vec3 base = leave_head({0, landmark::ear_centre.y, landmark::ear_centre.z}, {1, 0, 0});
-    const double stand = radians(28), lean = radians(14);
+    // The plane leans: its rear stands off the head by 25 degrees and its top leans back by 14.
+
+    const double stand = radians(25), lean = radians(14);
     const Vec3 forward(-std::sin(stand), 0, std::cos(stand)), out(std::cos(stand), 0, std::sin(stand));
     const Vec3 along = forward * std::cos(lean) + Vec3(0, 1, 0) * std::sin(lean);
     const Vec3 up = Vec3(0, 1, 0) * std::cos(lean) - forward * std::sin(lean);
+    // a to the front of the face, b up, c away from the head, millimetres.
     const auto place = [&](double a, double b, double c) {
-        return base + Vec3(4.5, 0, -7) + along * a + up * b + out * c;
+        return landmark::ear_centre + along * a + up * b + out * c;
     };
     const auto texture = [&](double s, double angle) {
         return uv_corner + uv_side * (Vec2(0.5) + 0.5 * s * Vec2(std::cos(angle), -std::sin(angle)));
@@ -59,20 +57,18 @@ void add_left_ear(Mesh& mesh, double fineness, const Vec2& uv_corner, double uv_
     for (int ring = 1; ring <= front_rings + back_rings; ++ring) {
         for (int k = 0; k < angles; ++k) {
             const double angle = 2 * pi * k / angles;
-            const double r = outline(angle);
+            const Vec2 r = outline(angle);
             // The canal sits in front of the middle, so rings start off-centre and grow concentric with the outline.
             if (ring <= front_rings) {
                 const double s = static_cast<double>(ring) / front_rings;
                 const double shift = 5.0 * (1 - s * s);
-                mesh.add(place(s * r * std::cos(angle) + shift, s * r * std::sin(angle) - 0.4 * shift,
-                               front_height(s, angle)),
+                mesh.add(place(s * r.x + shift, s * r.y - 0.4 * shift, front_height(s, angle)),
                          texture(s / uv_reach, angle));
             } else {
                 const double t = static_cast<double>(ring - front_rings) / back_rings;
                 const double s = 1 + 0.035 * std::sin(pi * std::min(1.0, t * 2.2)) - 0.55 * t * t;
                 const double edge = front_height(1, angle);
-                mesh.add(place(s * r * std::cos(angle) * mix(1, 0.9, t), s * r * std::sin(angle),
-                               edge - 3.2 * std::pow(t, 0.6) - 12 * t * t * t),
+                mesh.add(place(s * r.x * mix(1, 0.9, t), s * r.y, edge - 3.2 * std::pow(t, 0.6) - 12 * t * t * t),
                          texture((1 + (uv_reach - 1) * t) / uv_reach, angle));
             }
         }

@@ -67,8 +67,8 @@ public:
     std::vector<ShapeTarget> all() {
         const Pulls smile = {{mouth_corner, {19, 14, 20}, {7.0, 6.6, -4.5}},
                              {{10, -64, 92}, {12, 9, 16}, {0.6, 0.8, -0.8}},
-                             {{35, -38, 62}, {15, 12, 18}, {1.5, 5.0, 3.2}},
-                             {{23, -52, 82}, {6, 10, 12}, {2.0, 2.0, -0.6}},
+                             {{35, -36, 64}, {15, 12, 18}, {1.2, 4.8, 4.4}},
+                             {{21, -51, 84}, {6, 10, 12}, {2.4, 2.0, -1.4}},
                              {{31, -17, 74}, {15, 6, 12}, {0, 1.6, 0.6}}};
         const Pulls frown = {{mouth_corner, {13, 12, 16}, {1.5, -7.5, -1.5}},
                              {{17, -84, 84}, {12, 9, 14}, {0, -2.0, 1.0}}};
@@ -111,13 +111,13 @@ public:
                              {mouth_corner, {9, 9, 12}, {1.0, 0.4, -2.2}}};
         const Pulls pucker = {{mouth_corner, {14, 15, 18}, {-11.0, 0.3, 5.5}},
                               {{12, -68, 92}, {9, 11, 14}, {-3.4, 0, 4.0}},
-                              {{0, -64, 95}, {11, 6, 14}, {0, 0.3, 3.2}, Pull::upper},
-                              {{0, -75, 93}, {11, 7, 14}, {0, -0.3, 3.4}, Pull::lower}};
+                              {{0, -64, 95}, {11, 6, 14}, {0, 0, 3.2}, Pull::upper},
+                              {{0, -75, 93}, {11, 7, 14}, {0, 0, 3.2}, Pull::lower}};
         const Pulls funnel = {{mouth_corner, {13, 14, 18}, {-7.5, 0, 5.0}},
                               {{13, -62, 93}, {11, 9, 14}, {-1.6, 3.6, 3.4}, Pull::upper},
-                              {{0, -62, 95}, {9, 8, 14}, {0, 1.2, 2.2}, Pull::upper},
+                              {{0, -62, 95}, {9, 8, 14}, {0, 2.4, 2.2}, Pull::upper},
                               {{13, -76, 91}, {11, 9, 14}, {-1.6, -4.4, 3.6}, Pull::lower},
-                              {{0, -77, 92}, {9, 8, 14}, {0, -1.4, 2.2}, Pull::lower}};
+                              {{0, -77, 92}, {9, 8, 14}, {0, -3.4, 2.2}, Pull::lower}};
         const Pulls roll_upper = {{{0, -63, 95}, {20, 6.5, 14}, {0, -2.6, -3.6}, Pull::upper}};
         const Pulls roll_lower = {{{0, -75, 93}, {20, 7, 14}, {0, 2.8, -3.8}, Pull::lower}};
         const Pulls shrug_upper = {{{0, -63, 95}, {17, 9, 14}, {0, 3.6, 1.6}, Pull::upper},
@@ -142,7 +142,7 @@ public:
         add_sides("eyeSquint", [&](Index v) {
             return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12}) + pulled(v, cheek_raise * 0.35);
         });
-        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 12, .lower_degrees = -3}); });
+        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 9, .lower_degrees = -2}); });
         add_whole("jawForward", [&](Index v) { return jaw_[v] * Vec3(0, -0.6, 6); });
         add_sides("jaw", [&](Index v) { return jaw_[v] * Vec3(7, 0, 0); });
         add_whole("jawOpen", [&](Index v) { return jaw_opened(rest(v), jaw_[v]) - rest(v); });

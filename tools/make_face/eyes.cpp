@@ -4,14 +4,17 @@
 
 namespace blush::make_face {
 
+double eye_radius_at(double polar) {
+    return landmark::eye_radius + cornea_height * smooth_step(limbus_angle * 1.15, 0, polar);
+}
+
 Mesh make_eye() {
     constexpr int around = 40, rings = 30;
     Mesh mesh;
     const auto ring_angle = [](int ring) { return pi * std::pow(static_cast<double>(ring) / rings, 1.25); };
     for (int ring = 0; ring <= rings; ++ring) {
         const double polar = ring_angle(ring);
-        const double bulge = cornea_height * smooth_step(limbus_angle * 1.15, 0, polar);
-        const double radius = landmark::eye_radius + bulge;
+        const double radius = eye_radius_at(polar);
         for (int k = 0; k < around; ++k) {
             const double turn = 2 * pi * k / around;
             const Vec3 direction(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));

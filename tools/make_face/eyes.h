@@ -12,6 +12,9 @@ inline constexpr double cornea_height = 0.55;
 /// life).
 inline constexpr double limbus_angle = 28.5 * pi / 180;
 
+/// Distance from the eye's centre to its surface in a direction `polar` radians off the gaze, millimetres.
+double eye_radius_at(double polar);
+
 /// An eye about its own centre, looking along +Z. Texture: polar about the pupil, the texture's edge at 100 degrees.
 Mesh make_eye();
 inline constexpr double eye_texture_angle = 100 * pi / 180;

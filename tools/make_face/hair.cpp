@@ -11,7 +11,7 @@ double hairline(double azimuth_degrees) {
     struct Knot {
         double azimuth, y;
     };
-    constexpr Knot knots[] = {{0, 73},   {14, 74},   {27, 70},   {38, 60},   {48, 52},  {58, 44},
+    constexpr Knot knots[] = {{0, 69},   {14, 70},   {27, 66},   {38, 56},   {48, 48},  {58, 40},
                               {66, 26},  {72, 0},    {77, -18},  {86, -16},  {90, 10},  {96, 22},
                               {106, 16}, {113, -14}, {120, -52}, {140, -70}, {180, -76}};
     for (std::size_t k = 1; k < std::size(knots); ++k) {
@@ -21,6 +21,10 @@ double hairline(double azimuth_degrees) {
     }
     return std::end(knots)[-1].y;
 }
+
+/// Millimetres above the hairline.
+double above_hairline(const Vec3& p) { return p.y - hairline(std::atan2(std::abs(p.x), p.z + 5) * 180 / pi); }
+constexpr double fade_begin = -4, fade_end = 12;  // of the hairline, mm
 
 /// Coordinates along and across the strands, which run from the whorl at the crown's back.
 struct Strand {
@@ -36,11 +40,16 @@ Strand strand(const Vec3& p) {
 
 }  // namespace
 
-double hair_cover(const Vec3& p) {
-    const double azimuth = std::atan2(std::abs(p.x), p.z + 5) * 180 / pi;
-    const double ragged = 1.6 * fractal_noise(p / 3.5, 2);
-    const double line = hairline(azimuth);
-    return smooth_step(line - 2, line + 9, p.y + ragged);
+double hair_cover(const Vec3& p) { return smooth_step(fade_begin, fade_end, above_hairline(p)); }
+
+double hair_paint(const Vec3& p) {
+    const double above = above_hairline(p);
+    if (above < 2 * fade_begin) return 0;
+    if (above > 2 * fade_end) return 1;
+    const Strand s = strand(p);
+    const double a = std::cos(s.across), b = std::sin(s.across);
+    const double wisp = 3.2 * noise({a * 60, b * 60, s.along * 9}) + 2.4 * noise({a * 130, b * 130, s.along * 12});
+    return smooth_step(fade_begin + 1, fade_end - 4, above + wisp);
 }
 
 void grow_hair(Head& head) {

@@ -8,6 +8,9 @@ namespace blush::make_face {
 /// 0 on bare skin, 1 well inside the hairline.
 double hair_cover(const Vec3& p);
 
+/// How much of the skin's colour the hair hides: single strands at the hairline, all of it farther in.
+double hair_paint(const Vec3& p);
+
 /// Lifts the scalp to the hair's outer surface, in strands that run from the crown's whorl.
 void grow_hair(Head& head);
 

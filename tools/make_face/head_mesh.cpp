@@ -4,13 +4,14 @@
 
 #include "tools/make_face/ear.h"
 #include "tools/make_face/head_shape.h"
+#include "tools/make_face/parallel.h"
 
 namespace blush::make_face {
 namespace {
 
 using namespace landmark;
 
-constexpr double neck_end_y = -172;
+constexpr Vec3 neck_end_centre{0, -156, -33};
 constexpr double chin_elevation = radians(-49), brow_elevation = radians(28);
 
 /// The strip of the texture above the face holds the ears; the face has the rest.
@@ -77,7 +78,7 @@ Grid make_grid(double fineness) {
     const double mouth = elevation_of(front_point({0, stomion_y}));
     const double eye =
         elevation_of(front_point({mix(landmark::inner_canthus.x, landmark::outer_canthus.x, 0.5), canthal_y(32)}));
-    // Rows below the chin fan out to the neck's end, whose elevation differs from column to column; see place_fan.
+    // Rows below the chin have no elevation of their own, see below_chin; these only set how the texture is shared out.
     grid.elevation = Axis(radians(-78));
     grid.chin = grid.elevation.add_even(chin_elevation, steps(24));
     grid.mouth = grid.elevation.add_even(mouth, steps(15));
@@ -157,14 +158,11 @@ private:
         return p;
     }
 
-    Vec3 neck_end(int i) const {
-        double low = radians(-88), high = radians(-45);
-        for (int k = 0; k < 40; ++k) {
-            const double middle = (low + high) / 2;
-            const Vec3 p = leave_head(fan_origin, direction(grid_.azimuth.lines[static_cast<std::size_t>(i)], middle));
-            (p.y < neck_end_y ? low : high) = middle;
-        }
-        return leave_head(fan_origin, direction(grid_.azimuth.lines[static_cast<std::size_t>(i)], high));
+    /// Below the chin the fan's origin sinks into the neck while its rays level out: share 0 at the chin, 1 at the end.
+    Vec3 below_chin(int i, double share) const {
+        const Vec3 origin = fan_origin + (neck_end_centre - fan_origin) * share;
+        const double elevation = mix(chin_elevation, 0, share);
+        return leave_head(origin, direction(grid_.azimuth.lines[static_cast<std::size_t>(i)], elevation));
     }
 
     /// How much of a slit's bend is left `rows` rows away.
@@ -174,7 +172,7 @@ private:
         const double eye_reach = 0.62 * (grid_.brow - grid_.eye), mouth_reach = 0.8 * (grid_.mouth - grid_.chin);
         for (int i = 0; i <= grid_.last_column(); ++i) {
             const double azimuth = grid_.azimuth.lines[static_cast<std::size_t>(i)];
-            const double end = elevation_of(neck_end(i));
+
             const auto level = [&](int j) { return grid_.elevation.lines[static_cast<std::size_t>(j)]; };
 
             Vec3 eye_up{}, eye_low{}, lip{};
@@ -194,13 +192,13 @@ private:
             }
             for (int j = 0; j < grid_.last_row(); ++j) {
                 double elevation = level(j);
-                if (j < grid_.chin)
-                    elevation = mix(end, chin_elevation, std::pow(static_cast<double>(j) / grid_.chin, 1.0));
+
                 elevation += bend(j - grid_.eye, eye_reach) * (j < grid_.eye ? low_bend : up_bend);
                 elevation += bend(j - grid_.mouth, mouth_reach) * lip_bend;
-                positions_[id(i, j)] = leave_head(fan_origin, direction(azimuth, elevation));
+                positions_[id(i, j)] = j < grid_.chin ? below_chin(i, 1 - static_cast<double>(j) / grid_.chin)
+                                                      : leave_head(fan_origin, direction(azimuth, elevation));
             }
-            positions_[id(i, 0)] = neck_end(i);
+
             pinned_[id(i, 0)] = 1;
             if (i >= grid_.inner_canthus && i <= grid_.outer_canthus) {
                 pin(i, grid_.eye, eye_low, eye_up);
@@ -231,24 +229,27 @@ private:
         };
         std::vector<Vec3> next = positions_;
         for (int round = 0; round < rounds; ++round) {
-            for (int j = 1; j < grid_.last_row(); ++j) {
-                for (int i = 0; i <= grid_.last_column(); ++i) {
-                    const Index v = id(i, j);
-                    if (pinned_[v]) continue;
-                    const Vec3 right = i > 0 ? positions_[id(i - 1, j)] : mirrored(positions_[id(1, j)]);
-                    const Vec3 left =
-                        i < grid_.last_column() ? positions_[id(i + 1, j)] : mirrored(positions_[id(i - 1, j)]);
-                    const double toward_right = i > 0 && i < grid_.last_column() ? weight(grid_.azimuth.lines, i) : 0.5;
-                    const Vec3 below = positions_[upper_id(i, j - 1)], above = positions_[id(i, j + 1)];
-                    const double toward_below = weight(grid_.elevation.lines, j);
-                    const Vec3 mean = (right * toward_right + left * (1 - toward_right) + below * toward_below +
-                                       above * (1 - toward_below)) /
-                                      2.0;
-                    Vec3 p = project_to_head(blend(positions_[v], mean, 0.6));
-                    if (i == 0 || i == grid_.last_column()) p.x = 0;
-                    next[v] = p;
+            parallel_pieces(grid_.last_row() - 1, [&](int first, int last) {
+                for (int j = first + 1; j <= last; ++j) {
+                    for (int i = 0; i <= grid_.last_column(); ++i) {
+                        const Index v = id(i, j);
+                        if (pinned_[v]) continue;
+                        const Vec3 right = i > 0 ? positions_[id(i - 1, j)] : mirrored(positions_[id(1, j)]);
+                        const Vec3 left =
+                            i < grid_.last_column() ? positions_[id(i + 1, j)] : mirrored(positions_[id(i - 1, j)]);
+                        const double toward_right =
+                            i > 0 && i < grid_.last_column() ? weight(grid_.azimuth.lines, i) : 0.5;
+                        const Vec3 below = positions_[upper_id(i, j - 1)], above = positions_[id(i, j + 1)];
+                        const double toward_below = weight(grid_.elevation.lines, j);
+                        const Vec3 mean = (right * toward_right + left * (1 - toward_right) + below * toward_below +
+                                           above * (1 - toward_below)) /
+                                          2.0;
+                        Vec3 p = project_to_head(blend(positions_[v], mean, 0.6));
+                        if (i == 0 || i == grid_.last_column()) p.x = 0;
+                        next[v] = p;
+                    }
                 }
-            }
+            });
             positions_.swap(next);
         }
     }
@@ -256,18 +257,19 @@ private:
     /// u follows the columns and v the rows, the back half of the head at half density. Slits gape a little in the
     /// texture so that the linings have room there.
     void place_texture() {
-        const auto spread = [](const std::vector<double>& lines, double from, double to, double density_outside) {
+        const auto spread = [](const std::vector<double>& lines, double from, double density_before, double to,
+                               double density_after) {
             std::vector<double> place{0};
             for (std::size_t k = 1; k < lines.size(); ++k) {
                 const double middle = (lines[k] + lines[k - 1]) / 2;
-                const double density = middle > from && middle < to ? 1 : density_outside;
+                const double density = middle < from ? density_before : middle > to ? density_after : 1;
                 place.push_back(place.back() + density * (lines[k] - lines[k - 1]));
             }
             for (double& x : place) x /= place.back();
             return place;
         };
-        const auto u = spread(grid_.azimuth.lines, -1, radians(75), 0.4);
-        const auto v = spread(grid_.elevation.lines, radians(-60), radians(50), 0.6);
+        const auto u = spread(grid_.azimuth.lines, -1, 1, radians(75), 0.4);
+        const auto v = spread(grid_.elevation.lines, chin_elevation, 2.0, radians(50), 0.6);
         const double eye_reach = 0.62 * (grid_.brow - grid_.eye), mouth_reach = 0.8 * (grid_.mouth - grid_.chin);
         for (int j = 0; j <= grid_.last_row(); ++j) {
             for (int i = 0; i <= grid_.last_column(); ++i) {
@@ -363,18 +365,27 @@ private:
     /// The lid's margin turns in to the eyeball, then runs back along it.
     void line_lids() {
         constexpr int rings = 4;
-        constexpr double clearance[rings + 1] = {0, 1.25, 0.45, 0.6, 1.4};  // millimetres over the eyeball
-        constexpr double turn_degrees[rings + 1] = {0, 0.0, 1.0, 9, 26};    // away from the opening
+        constexpr double sealed_inside =
+            -1.0;  // the last ring lies in the eyeball, so that no gap shows behind the lids
+
+        constexpr double clearance[rings + 1] = {0, 1.25, 0.45, 0.6, sealed_inside};  // millimetres over the eyeball
+        constexpr double turn_degrees[rings + 1] = {0, 0.0, 1.0, 9, 26};              // away from the opening
         const std::size_t last = head_.upper_lid.size() - 1;
         const auto place = [&](std::size_t k, int side, int ring) {
             const Vec3 arm = head_.mesh.positions[side >= 0 ? head_.upper_lid[k] : head_.lower_lid[k]] - eye_centre;
             const double reach = glm::length(arm);
+            if (side == 0) {  // the corners go straight back along the ball
+                const Vec3 back = arm - Vec3(0, 0, 0.5 * ring);
+                const double length =
+                    ring == rings ? eye_radius + sealed_inside : std::max(glm::length(back), eye_radius + 0.4);
+                return eye_centre + back * (length / glm::length(back));
+            }
             const double radius = std::min(reach, eye_radius + clearance[ring]);
             const double turn = radians(turn_degrees[ring]) * side;
             // A lid turns about the horizontal axis through the eye's centre.
             const Vec3 turned(arm.x, arm.y * std::cos(turn) + arm.z * std::sin(turn),
                               arm.z * std::cos(turn) - arm.y * std::sin(turn));
-            return eye_centre + turned * (radius / reach) - (side == 0 ? Vec3(0, 0, 0.4 * ring) : Vec3(0));
+            return eye_centre + turned * (radius / reach);
         };
         const auto texture = [&](std::size_t k, int side, int ring) {
             const Index edge = side >= 0 ? head_.upper_lid[k] : head_.lower_lid[k];

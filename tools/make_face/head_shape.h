@@ -19,7 +19,7 @@ inline constexpr Vec2 inner_canthus{17.2, -2.6}, outer_canthus{46.2, -0.6};  ///
 inline constexpr double mouth_corner_x = 25.5;
 inline constexpr double stomion_y = -68;
 inline constexpr Vec3 jaw_hinge{0, -24, 4};  ///< the axis through both condyles is parallel to X
-inline constexpr Vec3 ear_centre{73, -12, -8};
+inline constexpr Vec3 ear_centre{69.0, -12, -13};
 inline constexpr Vec3 fan_origin{0, -10, 5};  ///< the head's skin is star-shaped seen from here, nearly
 }  // namespace landmark
 

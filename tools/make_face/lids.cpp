@@ -1,5 +1,6 @@
 #include "tools/make_face/lids.h"
 
+#include "tools/make_face/eyes.h"
 #include "tools/make_face/head_shape.h"
 
 namespace blush::make_face {
@@ -9,7 +10,7 @@ using namespace landmark;
 
 constexpr double upper_part = 0.8;                                      // of the way that a blink closes
 constexpr double upper_reach = radians(32), lower_reach = radians(34);  // how far the skin follows beyond the edges
-constexpr double clearance = 0.3;                                       // between lid and eyeball, mm
+constexpr double clearance = 0.2;                                       // between lid and eyeball, mm
 
 double angle_of(const Vec3& p) { return std::atan2(p.y - eye_centre.y, p.z - eye_centre.z); }
 
@@ -20,12 +21,11 @@ Vec3 turned(const Vec3& p, double angle) {
                              arm.z * std::cos(angle) - arm.y * std::sin(angle));
 }
 
-/// The least distance from `centre` on the segment from p to p + delta.
-double nearest(const Vec3& centre, const Vec3& p, const Vec3& delta) {
-    const Vec3 arm = p - centre;
-    const double squared = glm::dot(delta, delta);
-    const double t = squared > 0 ? std::clamp(-glm::dot(arm, delta) / squared, 0.0, 1.0) : 0;
-    return glm::length(arm + delta * t);
+/// How far q lies inside the eye about `centre` that looks forward, widened by the clearance; negative outside.
+double lack_of_room(const Vec3& q, const Vec3& centre) {
+    const Vec3 arm = q - centre;
+    const double distance = glm::length(arm);
+    return eye_radius_at(std::acos(std::clamp(arm.z / distance, -1.0, 1.0))) + clearance - distance;
 }
 
 }  // namespace
@@ -67,16 +67,23 @@ Vec3 Lids::move(Index v, const LidMove& lid_move) const {
 }
 
 void Lids::keep_off_eyes(std::vector<Vec3>& deltas) const {
+    // A target's vertices go along chords, which dip into the ball between two places on it; the end is pushed outward
+    // until every sampled weight clears.
+    constexpr int weights = 8, most_rounds = 60;
     for (Index v = 0; v < deltas.size(); ++v) {
         const Vec3& p = head_.mesh.positions[v];
         if (deltas[v] == Vec3(0)) continue;
         const Vec3 centre = p.x < 0 ? mirrored(eye_centre) : eye_centre;
-        const double at_rest = glm::length(p - centre);
-        if (at_rest > 2 * eye_radius) continue;
-        const double least = std::min(at_rest, eye_radius + clearance);
-        for (int k = 0; k < 40 && nearest(centre, p, deltas[v]) < least - 1e-6; ++k) {
-            const double lack = least - nearest(centre, p, deltas[v]);
-            deltas[v] += glm::normalize(p + deltas[v] - centre) * (1.5 * lack + 1e-4);
+        if (glm::length(p - centre) > 2 * eye_radius) continue;
+        const double allowed = std::max(0.0, lack_of_room(p, centre));  // what is tighter at rest may stay so
+        for (int round = 0; round < most_rounds; ++round) {
+            double lack = 0;
+            for (int n = 1; n <= weights; ++n) {
+                const double weight = static_cast<double>(n) / weights;
+                lack = std::max(lack, (lack_of_room(p + deltas[v] * weight, centre) - allowed) / weight);
+            }
+            if (lack <= 0) break;
+            deltas[v] += glm::normalize(p + deltas[v] - centre) * (0.6 * lack + 1e-4);
         }
     }
 }

@@ -13,8 +13,8 @@ struct Arch {
 };
 
 /// Mesiodistal crown widths from the midline outward, mm: Wheeler's Dental Anatomy (Ash and Nelson 2003), table 1-1.
-constexpr Arch upper_arch{27.5, 84.6, -58.5, -69.8, 6.5, 1, {8.5, 6.5, 7.5, 7.0, 7.0, 10.0, 9.0}};
-constexpr Arch lower_arch{25.5, 82.0, -77.8, -68.6, 6.0, -1, {5.0, 5.5, 7.0, 7.0, 7.0, 11.0, 10.5}};
+constexpr Arch upper_arch{27.5, 84.6, -59.5, -71.0, 6.5, 1, {8.5, 6.5, 7.5, 7.0, 7.0, 10.0, 9.0}};
+constexpr Arch lower_arch{25.5, 82.0, -78.6, -69.6, 6.0, -1, {5.0, 5.5, 7.0, 7.0, 7.0, 11.0, 10.5}};
 constexpr double arch_rear_z = 42;
 
 const Arch& arch_of(Jaw jaw) { return jaw == Jaw::upper ? upper_arch : lower_arch; }

@@ -6,6 +6,7 @@
 #include "tools/make_face/eyes.h"
 #include "tools/make_face/hair.h"
 #include "tools/make_face/head_shape.h"
+#include "tools/make_face/parallel.h"
 
 namespace blush::make_face {
 namespace {
@@ -27,9 +28,9 @@ struct Spot {
     int lip = 0;
 };
 
-/// Runs `paint(x, y, spot)` for every texel that a triangle of the head covers.
+/// The rows from first_row to last_row of the texture, both included.
 template <class Paint>
-void for_each_texel(const Head& head, int side, Paint paint) {
+void paint_rows(const Head& head, int side, int first_row, int last_row, Paint paint) {
     const Mesh& mesh = head.mesh;
     for (const Triangle& t : mesh.triangles) {
         const Vec2 a = mesh.uv[t[0]] * static_cast<double>(side), b = mesh.uv[t[1]] * static_cast<double>(side),
@@ -48,7 +49,7 @@ void for_each_texel(const Head& head, int side, Paint paint) {
             if (tag.part != Part::skin) spot.part = tag.part;
             if (tag.lip != 0) spot.lip = tag.lip;
         }
-        for (int y = low(a.y, b.y, c.y); y <= high(a.y, b.y, c.y); ++y) {
+        for (int y = std::max(first_row, low(a.y, b.y, c.y)); y <= std::min(last_row, high(a.y, b.y, c.y)); ++y) {
             for (int x = low(a.x, b.x, c.x); x <= high(a.x, b.x, c.x); ++x) {
                 const Vec2 q(x + 0.5, y + 0.5);
                 double wa = ((b.x - q.x) * (c.y - q.y) - (c.x - q.x) * (b.y - q.y)) / area;
@@ -66,6 +67,12 @@ void for_each_texel(const Head& head, int side, Paint paint) {
     }
 }
 
+/// Runs `paint(x, y, spot)` for every texel that a triangle of the head covers.
+template <class Paint>
+void for_each_texel(const Head& head, int side, Paint paint) {
+    parallel_pieces(side, [&](int first_row, int last_row) { paint_rows(head, side, first_row, last_row - 1, paint); });
+}
+
 /// Distance from p to the edge of the nearer eye's upper or lower lid, front view, millimetres; positive outside the
 /// opening.
 double lid_edge_distance(const Vec3& p, bool upper) {
@@ -78,10 +85,10 @@ double lid_edge_distance(const Vec3& p, bool upper) {
 double lip_cover(const Vec3& p) {
     const double x = std::abs(p.x), t = x / mouth_corner_x;
     if (t > 1.05 || p.z < 60) return 0;
-    const double closing = std::sqrt(std::max(0.0, 1 - std::pow(std::min(t, 1.0), 2.4)));
-    const double bow = 1.5 * bell(x, 3.2);
-    const double top = lip_line_y(x) + 8.3 * closing - bow;
-    const double bottom = lip_line_y(x) - 11.2 * std::pow(closing, 1.15);
+    const double closing = std::pow(std::max(0.0, 1 - square(std::min(t, 1.0))), 0.72);
+    const double bow = 1.3 * bell(x, 3.4);
+    const double top = lip_line_y(x) + 7.6 * closing - bow;
+    const double bottom = lip_line_y(x) - 10.6 * std::pow(closing, 0.9);
     constexpr double soft = 1.3;
     return smooth_step(top + soft, top - soft, p.y) * smooth_step(bottom - soft, bottom + soft, p.y);
 }
@@ -90,7 +97,7 @@ double lip_cover(const Vec3& p) {
 double brow_cover(const Vec3& p) {
     const double x = std::abs(p.x);
     const double s = (x - 9.5) / 39.0;  // 0 at the brow's head, 1 at its tail
-    if (s < -0.1 || s > 1.1 || p.z < 20) return 0;
+    if (s < -0.1 || s > 1.1 || p.z < 20 || p.y < 5 || p.y > 40) return 0;
     const double middle =
         17.0 + 8.2 * std::sin(pi * 0.5 * std::clamp(s / 0.68, 0.0, 1.0)) - 9.5 * square(std::max(0.0, s - 0.66) / 0.34);
     const double half_width = mix(3.9, 1.0, smooth_step(0.25, 1.05, s)) * smooth_step(-0.06, 0.06, s);
@@ -124,7 +131,14 @@ Color skin_color(const Vec3& p, const Vec3& normal) {
     toward(Color(0.34, 0.17, 0.14),
            0.95 * bell(half, {6.6, -45, 99.5}, {4.2, 4.0, 6.5}) * smooth_step(0.35, -0.15, normal.z));  // nostril
     toward(blood, 0.16 * (0.5 + 0.5 * fractal_noise(p / 9.0, 3)));                                      // uneven tone
-    const double grain = 1 + 0.014 * fractal_noise(p / 1.6, 3);
+    toward(cool, 0.22 * smooth_step(-0.2, 0.9, fractal_noise(p / 17.0 + Vec3(3, 7, 1), 2)));
+    toward(shadow, 0.20 * bell(half, {0, -86.5, 92}, {16, 3.5, 14}));  // below the lower lip
+    toward(shadow, 0.16 * bell(half, {19.5, -49, 86}, {3.5, 9, 14}));  // nasolabial fold
+    // Freckles: a few of the lattice's cells, over the nose and the cheeks.
+    const double freckled = bell(half, {24, -26, 84}, {26, 13, 26});
+    const double speck = fractal_noise(Vec3(p.x + 0.6 * p.y, p.y - 0.6 * p.x, p.z) / 1.25 + Vec3(91, 13, 47), 2);
+    toward(Color(0.66, 0.44, 0.34), 0.26 * freckled * smooth_step(0.65, 1.1, speck));
+    const double grain = 1 + 0.022 * fractal_noise(p / 1.3, 3) + 0.018 * fractal_noise(p / 5.0, 2);
     return c * grain;
 }
 
@@ -132,7 +146,7 @@ Color ear_color(const Vec3& p) {
     const Color skin(0.84, 0.60, 0.51), blood(0.78, 0.40, 0.34), deep(0.40, 0.20, 0.16);
     Color c = blend(skin, blood, 0.35 + 0.12 * fractal_noise(p / 7.0, 2));
     const Vec3 half{std::abs(p.x), p.y, p.z};
-    c = blend(c, deep, 0.85 * bell(half, ear_centre + Vec3(3, -2, 2), {9, 5.5, 6}));
+    c = blend(c, deep, 0.85 * bell(half, ear_centre + Vec3(0, -3, 5), {9, 5, 5}));
     return c;
 }
 
@@ -141,12 +155,14 @@ Color face_color(const Spot& spot) {
     const Color lip_red(0.75, 0.43, 0.40), lip_dark(0.46, 0.17, 0.17), lash(0.13, 0.075, 0.06), rim(0.80, 0.52, 0.47);
     if (spot.part == Part::ear) return ear_color(p);
     if (spot.part == Part::mouth_lining) {
-        const Color throat(0.20, 0.06, 0.06), flesh(0.62, 0.27, 0.26);
+        const Color deep(0.16, 0.05, 0.05), flesh(0.62, 0.27, 0.26);
         const Color front = blend(lip_red * 0.9, flesh, smooth_step(0.1, 0.35, spot.depth));
-        return blend(front, throat, smooth_step(0.45, 0.95, spot.depth));
+        return blend(front, deep, smooth_step(0.3, 0.62, spot.depth));
     }
     if (spot.part == Part::lid_lining) return blend(rim, Color(0.45, 0.20, 0.18), smooth_step(0.3, 0.9, spot.depth));
 
+    const double hair = hair_paint(p);
+    if (hair >= 1) return hair_color(p);
     Color c = skin_color(p, spot.normal);
     const double lip = lip_cover(p);
     if (lip > 0) {
@@ -165,8 +181,7 @@ Color face_color(const Spot& spot) {
     }
     const Color brow_hair(0.215, 0.135, 0.10);
     c = blend(c, brow_hair, 0.9 * brow_cover(p));
-    const double hair = hair_cover(p);
-    if (hair > 0) c = blend(c, hair_color(p), smooth_step(0.0, 0.5, hair));
+    if (hair > 0) c = blend(c, hair_color(p), hair);
     return c;
 }
 
@@ -189,6 +204,28 @@ Picture paint_skin(const Head& head, int side) {
     return picture;
 }
 
+Picture paint_roughness(const Head& head, int side) {
+    constexpr double skin = 0.52, oily = 0.43, lip = 0.38, hair = 0.82, wet = 0.3;
+    Picture picture{side,
+                    std::vector<unsigned char>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 3)};
+    for (std::size_t k = 1; k < picture.rgb.size(); k += 3) picture.rgb[k] = to_byte(skin);
+    for_each_texel(head, side, [&](int x, int y, const Spot& spot) {
+        const Vec3 half{std::abs(spot.p.x), spot.p.y, spot.p.z};
+        const double shine = std::max(bell(half, {0, -25, 104}, {14, 26, 24}), bell(half, {0, 40, 90}, {34, 22, 24}));
+        double roughness = mix(skin, oily, shine);
+        if (spot.part == Part::skin) {
+            roughness = mix(roughness, lip, 0.8 * lip_cover(spot.p));
+            roughness = mix(roughness, hair, std::max(hair_paint(spot.p), 0.8 * brow_cover(spot.p)));
+        }
+        if (spot.part == Part::mouth_lining || spot.part == Part::lid_lining)
+            roughness = mix(lip, wet, smooth_step(0, 0.3, spot.depth));
+        picture
+            .rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)) + 1] =
+            to_byte(roughness);
+    });
+    return picture;
+}
+
 Picture paint_eye(int side) {
     Picture picture{side, {}};
     picture.rgb.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 3);
@@ -200,8 +237,10 @@ Picture paint_eye(int side) {
             const double r = std::hypot(px, py), turn = std::atan2(py, px);
             const double across = 3 * std::cos(turn), up = 3 * std::sin(turn);
 
-            Color sclera(0.90, 0.875, 0.85);
-            sclera = blend(sclera, Color(0.80, 0.55, 0.50), smooth_step(limbus * 1.5, 0.95, r));
+            Color sclera(0.83, 0.80, 0.77);
+            // The ball darkens toward the lids, which shade it, and reddens toward its corners.
+            sclera = blend(sclera, Color(0.60, 0.47, 0.43), smooth_step(limbus * 1.25, limbus * 2.6, r));
+            sclera = blend(sclera, Color(0.74, 0.47, 0.42), 0.6 * smooth_step(limbus * 1.7, 0.85, r));
             const double vein = std::abs(fractal_noise({across * 3, up * 3, r * 5}, 3));
             sclera = blend(sclera, Color(0.76, 0.36, 0.33),
                            0.45 * smooth_step(0.10, 0.0, vein) * smooth_step(limbus * 1.3, 0.6, r));
@@ -210,8 +249,8 @@ Picture paint_eye(int side) {
             const double f = std::clamp((r - pupil) / (limbus - pupil), 0.0, 1.0);
             const double fibre = fractal_noise({across * 9, up * 9, f * 1.2}, 3);
             Color iris =
-                blend(Color(0.42, 0.33, 0.18), Color(0.30, 0.42, 0.46), smooth_step(0.10, 0.55, f + 0.18 * fibre));
-            iris = iris * (1 + 0.30 * fibre);
+                blend(Color(0.36, 0.27, 0.15), Color(0.27, 0.335, 0.33), smooth_step(0.10, 0.55, f + 0.18 * fibre));
+            iris = iris * (0.92 + 0.30 * fibre);
             iris = blend(iris, Color(0.07, 0.09, 0.11), smooth_step(0.72, 1.0, f));
             iris = blend(iris, Color(0.02), smooth_step(0.10, 0.0, f));
 
@@ -221,6 +260,37 @@ Picture paint_eye(int side) {
         }
     }
     return picture;
+}
+
+namespace {
+/// `paint(u, v)` at every texel's middle.
+template <class Paint>
+Picture paint_square(int side, Paint paint) {
+    Picture picture{side, {}};
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const Color c = paint((x + 0.5) / side, (y + 0.5) / side);
+            for (int k = 0; k < 3; ++k) picture.rgb.push_back(to_byte(c[k]));
+        }
+    }
+    return picture;
+}
+const Color throat(0.16, 0.05, 0.05);
+}  // namespace
+
+Picture paint_gum(int side) {
+    return paint_square(side, [](double u, double v) {
+        const Color pink = Color(0.70, 0.38, 0.37) * (1 + 0.06 * fractal_noise({u * 60, v * 12, 0.5}, 2));
+        return blend(pink, throat, smooth_step(0.34, 0.52, v));
+    });
+}
+
+Picture paint_tongue(int side) {
+    return paint_square(side, [](double u, double v) {
+        const double papillae = fractal_noise({u * 70, v * 50, 0.5}, 2);
+        const Color flesh = Color(0.70, 0.38, 0.37) * (1 + 0.09 * papillae);
+        return blend(throat, flesh, smooth_step(0.25, 0.95, v));
+    });
 }
 
 Picture paint_pores(const Head& head, int side) {

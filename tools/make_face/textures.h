@@ -17,8 +17,15 @@ struct Picture {
 Picture paint_skin(const Head& head, int side);
 /// Tangent-space normal map of pores and fine skin relief (OpenGL convention: green up).
 Picture paint_pores(const Head& head, int side);
+/// Roughness of the skin in the green channel, metallic (none) in the blue, as glTF has them: hair, skin, lips, lining.
+Picture paint_roughness(const Head& head, int side);
 /// Sclera, iris and pupil, sRGB, in the eye's own polar layout.
 Picture paint_eye(int side);
+
+/// Gum (v from its front over the teeth to its back) and tongue (v from root to tip), sRGB: both darken toward the
+/// throat, where no light reaches.
+Picture paint_gum(int side);
+Picture paint_tongue(int side);
 
 std::vector<unsigned char> png(const Picture& picture);
 

@@ -149,6 +149,9 @@ private:
             material.normalTexture.index = add_texture(part.name + "Normal", part.normal_png);
             material.normalTexture.scale = part.normal_scale;
         }
+        if (!part.roughness_png.empty())
+            material.pbrMetallicRoughness.metallicRoughnessTexture.index =
+                add_texture(part.name + "Roughness", part.roughness_png);
         model_.materials.push_back(material);
     }
 

@@ -1,0 +1,224 @@
+/// The default face keeps its promises: exact mirror images, lids that close and stay off the eyes, lips that meet, a
+/// jaw that turns about its hinge, a skin without holes, the same bytes every time.
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rig/names.h"
+#include "tools/make_face/build_face.h"
+#include "tools/make_face/expressions.h"
+#include "tools/make_face/hair.h"
+#include "tools/make_face/head_shape.h"
+#include "tools/make_face/mouth_parts.h"
+
+namespace blush::make_face {
+namespace {
+
+constexpr std::size_t vertices = 12'000;
+
+struct Built {
+    Head head;
+    std::vector<ShapeTarget> targets;
+};
+
+const Built& built() {
+    static const Built face = [] {
+        Built b;
+        b.head = make_head(vertices);
+        grow_hair(b.head);
+        b.targets = head_targets(b.head);
+        return b;
+    }();
+    return face;
+}
+
+const ShapeTarget& target(const std::string& name) {
+    for (const ShapeTarget& t : built().targets)
+        if (t.name == name) return t;
+    ADD_FAILURE() << "no target " << name;
+    return built().targets.front();
+}
+
+Vec3 moved(const ShapeTarget& t, Index v, double weight = 1) {
+    return built().head.mesh.positions[v] + weight * t.position_deltas[v];
+}
+
+TEST(Face, HasTheSizeThatWasAskedFor) {
+    for (const std::size_t asked : {std::size_t{6'000}, std::size_t{22'000}, std::size_t{30'000}}) {
+        const auto count = static_cast<double>(make_head(asked).mesh.positions.size());
+        EXPECT_NEAR(count, static_cast<double>(asked), 0.15 * static_cast<double>(asked));
+    }
+}
+
+TEST(Face, SkinAndTongueTogetherHaveArkitsTargets) {
+    std::set<std::string> names;
+    for (const ShapeTarget& t : built().targets) names.insert(t.name);
+    for (const ShapeTarget& t : tongue_targets(make_tongue())) names.insert(t.name);
+    const std::set<std::string> wanted(arkit_names.begin(), arkit_names.end());
+    EXPECT_EQ(names, wanted);
+}
+
+TEST(Face, HalvesAreMirrorImages) {
+    const Head& head = built().head;
+    for (Index v = 0; v < head.image.size(); ++v) {
+        ASSERT_EQ(head.image[head.image[v]], v);
+        ASSERT_EQ(head.mesh.positions[head.image[v]], mirrored(head.mesh.positions[v]));
+    }
+}
+
+TEST(Face, LeftAndRightTargetsAreExactMirrorImages) {
+    const Head& head = built().head;
+    int pairs = 0, whole = 0;
+    for (const ShapeTarget& left : built().targets) {
+        if (left.name.ends_with("Right")) continue;
+        const bool sided = left.name.ends_with("Left");
+        const ShapeTarget& right = sided ? target(left.name.substr(0, left.name.size() - 4) + "Right") : left;
+        (sided ? pairs : whole) += 1;
+        for (Index v = 0; v < head.image.size(); ++v) {
+            ASSERT_EQ(right.position_deltas[head.image[v]], mirrored(left.position_deltas[v])) << left.name;
+            ASSERT_EQ(right.normal_deltas[head.image[v]], mirrored(left.normal_deltas[v])) << left.name;
+        }
+    }
+    EXPECT_EQ(pairs * 2 + whole, 51);
+}
+
+TEST(Face, EveryTargetIsFiniteAndMovesAPartOfTheFace) {
+    for (const ShapeTarget& t : built().targets) {
+        std::size_t count = 0;
+        for (Index v = 0; v < t.position_deltas.size(); ++v) {
+            const double length = glm::length(t.position_deltas[v]);
+            ASSERT_TRUE(std::isfinite(length) && std::isfinite(glm::length(t.normal_deltas[v]))) << t.name;
+            ASSERT_LT(length, 45) << t.name;  // the chin's way when the jaw opens is the longest
+            count += length > 0.1;
+        }
+        EXPECT_GE(count, 20U) << t.name;
+        EXPECT_LE(count, t.position_deltas.size() * 7 / 10) << t.name;
+    }
+}
+
+TEST(Face, LeftTargetsOfLidsAndBrowsLeaveTheRightEyeAlone) {
+    for (const char* name : {"eyeBlinkLeft", "eyeWideLeft", "eyeSquintLeft", "browDownLeft", "browOuterUpLeft"}) {
+        for (Index v = 0; v < built().head.image.size(); ++v) {
+            if (built().head.mesh.positions[v].x < -15) {
+                ASSERT_LT(glm::length(target(name).position_deltas[v]), 0.2) << name;
+            }
+        }
+    }
+}
+
+TEST(Lids, ABlinkClosesTheGap) {
+    const Head& head = built().head;
+    const ShapeTarget& blink = target("eyeBlinkLeft");
+    double widest = 0;
+    for (std::size_t k = 0; k < head.upper_lid.size(); ++k) {
+        EXPECT_LT(glm::distance(moved(blink, head.upper_lid[k]), moved(blink, head.lower_lid[k])), 0.3);
+        widest =
+            std::max(widest, glm::distance(moved(blink, head.upper_lid[k], 0), moved(blink, head.lower_lid[k], 0)));
+    }
+    EXPECT_GT(widest, 8) << "an eye that is open at rest";
+}
+
+TEST(Lids, NoVertexEntersAnEyeballAtAnyWeightOfAnyTarget) {
+    const Head& head = built().head;
+    constexpr double tolerance = 0.02;  // mm
+    for (const ShapeTarget& t : built().targets) {
+        for (Index v = 0; v < t.position_deltas.size(); ++v) {
+            const Vec3& rest = head.mesh.positions[v];
+            const Vec3 centre = rest.x < 0 ? mirrored(landmark::eye_centre) : landmark::eye_centre;
+            if (glm::distance(rest, centre) > 25) continue;
+            const VertexTag& tag = head.tags[v];
+            if (tag.part == Part::lid_lining && tag.depth == 1) continue;  // sealed inside the ball on purpose
+            for (const double weight : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                const Vec3 arm = moved(t, v, weight) - centre;
+                const double distance = glm::length(arm);
+                ASSERT_GT(distance, eye_radius_at(std::acos(arm.z / distance)) - tolerance)
+                    << t.name << " at " << weight;
+            }
+        }
+    }
+}
+
+TEST(Lips, MeetAtRestAndPartWithTheJaw) {
+    const Head& head = built().head;
+    const ShapeTarget& open = target("jawOpen");
+    for (std::size_t k = 0; k < head.upper_lip.size(); ++k)
+        EXPECT_EQ(head.mesh.positions[head.upper_lip[k]], head.mesh.positions[head.lower_lip[k]]);
+    EXPECT_GT(glm::distance(moved(open, head.upper_lip[0]), moved(open, head.lower_lip[0])), 20);
+}
+
+TEST(Lips, MouthCloseSealsAnOpenJaw) {
+    const Head& head = built().head;
+    const ShapeTarget &open = target("jawOpen"), &close = target("mouthClose");
+    for (std::size_t k = 0; k < head.upper_lip.size(); ++k) {
+        const Index u = head.upper_lip[k], l = head.lower_lip[k];
+        EXPECT_LT(glm::distance(moved(open, u) + close.position_deltas[u], moved(open, l) + close.position_deltas[l]),
+                  0.3)
+            << k;
+    }
+}
+
+TEST(Jaw, TurnsAboutItsHinge) {
+    const Mesh teeth = make_teeth(Jaw::lower);
+    for (const ShapeTarget& t : mandible_targets(teeth)) {
+        if (t.name != "jawOpen") continue;
+        for (std::size_t v = 0; v < teeth.positions.size(); ++v) {
+            const Vec3 before = teeth.positions[v] - landmark::jaw_hinge, after = before + t.position_deltas[v];
+            EXPECT_NEAR(std::hypot(after.y, after.z), std::hypot(before.y, before.z), 1e-9);
+            EXPECT_EQ(after.x, before.x);
+        }
+    }
+    const Index chin = built().head.lower_lip[0];
+    EXPECT_LT(target("jawOpen").position_deltas[chin].y, -20);
+}
+
+TEST(Skin, HasNoHoleButTheNecksEndAndBehindTheLids) {
+    const Head& head = built().head;
+    std::map<std::pair<Index, Index>, int> edges;
+    for (const Triangle& t : head.mesh.triangles)
+        for (std::size_t c = 0; c < 3; ++c) ++edges[std::minmax(head.weld[t[c]], head.weld[t[(c + 1) % 3]])];
+    for (const auto& [edge, count] : edges) {
+        if (count == 2) continue;
+        ASSERT_EQ(count, 1);
+        for (const Index v : {edge.first, edge.second}) {
+            const VertexTag& tag = head.tags[v];
+            const bool neck = head.mesh.positions[v].y == -156;
+            const bool hidden = tag.depth == 1 || tag.part == Part::ear;  // the ear's root is sunk into the head
+            const bool throat = tag.part == Part::mouth_lining && tag.depth == 1;
+            ASSERT_TRUE(neck || hidden || throat) << "a hole at " << head.mesh.positions[v].x << ", "
+                                                  << head.mesh.positions[v].y << ", " << head.mesh.positions[v].z;
+        }
+    }
+}
+
+TEST(Skin, NormalsAreUnitAndTextureCoordinatesInside) {
+    const Mesh& mesh = built().head.mesh;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ASSERT_NEAR(glm::length(mesh.normals[v]), 1, 1e-9);
+        ASSERT_TRUE(mesh.uv[v].x >= 0 && mesh.uv[v].x <= 1 && mesh.uv[v].y >= 0 && mesh.uv[v].y <= 1);
+    }
+}
+
+TEST(File, SameRequestSameBytes) {
+    const std::string once = glb_bytes(build_face(6'000));
+    EXPECT_GT(once.size(), 1'000'000U);
+    EXPECT_EQ(once.substr(0, 4), "glTF");
+    EXPECT_EQ(once, glb_bytes(build_face(6'000)));
+}
+
+TEST(File, BadPathIsOneSentenceAndLeavesNothing) {
+    const Status status = write_file("no_such_folder/face.glb", "x");
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "no_such_folder/face.glb: cannot be written: No such file or directory");
+    const Status folder = write_file(".", "x");
+    ASSERT_FALSE(folder);
+    EXPECT_EQ(folder.error().message, ".: cannot be written: it is a folder");
+    EXPECT_FALSE(std::filesystem::exists("no_such_folder"));
+}
+
+}  // namespace
+}  // namespace blush::make_face
