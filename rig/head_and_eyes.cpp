@@ -145,11 +145,26 @@ void skinned_from_meshes(const Face& face, std::span<const glm::mat4> world, std
     }
 }
 
-Bounds rest_bounds(const Face& face) {
+Bounds moving_bounds(const Face& face) {
     const std::vector<glm::mat4> world = rest_world(face);
     Bounds bounds;
+    std::vector<std::int32_t> node_of_mesh(face.meshes.size(), -1);
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
-        if (face.nodes[n].mesh >= 0) add_mesh(face, face.nodes[n].mesh, world[n], bounds);
+        if (face.nodes[n].mesh < 0) continue;
+        add_mesh(face, face.nodes[n].mesh, world[n], bounds);
+        node_of_mesh[static_cast<std::size_t>(face.nodes[n].mesh)] = static_cast<std::int32_t>(n);
+    }
+    std::vector<std::int32_t> node_of_vertex(face.positions.size(), -1);
+    for (const Primitive& primitive : face.primitives) {
+        std::fill_n(node_of_vertex.begin() + primitive.first_vertex, primitive.vertex_count, node_of_mesh[primitive.mesh]);
+    }
+    for (const Target& target : face.targets) {
+        for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+            const std::int32_t node = node_of_vertex[target.vertices[i]];
+            if (node < 0) continue;
+            const glm::vec3 moved = face.positions[target.vertices[i]] + target.position_deltas[i];
+            bounds.add(glm::vec3(world[static_cast<std::size_t>(node)] * glm::vec4(moved, 1)));
+        }
     }
     return bounds;
 }

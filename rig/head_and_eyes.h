@@ -45,7 +45,8 @@ struct Bounds {
     }
 };
 
-/// Bounds in the world of everything that the nodes draw, at rest.
-Bounds rest_bounds(const Face& face);
+/// Bounds in the world of everything that the nodes draw, at rest and with each target alone at weight 1: where the face
+/// can be expected to go.
+Bounds moving_bounds(const Face& face);
 
 }  // namespace blush

@@ -28,14 +28,9 @@ std::vector<std::uint8_t> targets_that_move(const Face& face, Wanted wanted) {
 }
 
 Status build_programs(CharacterState& state) {
-    const auto program = [](gl::Program& out, const gl::ProgramSource& source) -> Status {
-        Result<gl::Program> made = gl::make_program(source);
-        if (!made) return made.error();
-        out = *std::move(made);
-        return Done{};
-    };
-    if (Status face = program(state.face_program, {"face.vert", "face.frag"}); !face) return face;
-    if (Status tone = program(state.tone_program, {"screen.vert", "tone.frag"}); !tone) return tone;
+    Result<gl::Program> tone = gl::make_program({"screen.vert", "tone.frag"});
+    if (!tone) return tone.error();
+    state.tone_program = *std::move(tone);
     state.scene_framebuffer = gl::make_framebuffer();
     state.resolved_framebuffer = gl::make_framebuffer();
     state.no_attributes = gl::make_vertex_array();
@@ -73,7 +68,7 @@ Result<Character> Character::create(const Device& device, Face face) {
     state->controls.assign(state->rig.control_names().size(), 0);
     state->pose = state->rig.rest_pose();
     state->head_and_eyes = find_head_and_eyes(state->face);
-    state->bounds = rest_bounds(state->face);
+    state->bounds = moving_bounds(state->face);
     state->target_needs_turned_normals = targets_that_move(state->face, [](const Primitive& primitive) {
         return primitive.normal_source == NormalSource::recomputed;
     });

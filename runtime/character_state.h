@@ -68,7 +68,7 @@ struct CharacterState {
     FrameGraph graph;
     FrameResources resources;
     std::vector<glm::mat4> world_from_node, skinned_from_mesh;
-    gl::Program face_program, tone_program;
+    gl::Program tone_program;
     gl::Framebuffer scene_framebuffer, resolved_framebuffer;
     gl::VertexArray no_attributes;
     gl::TexturePool textures;

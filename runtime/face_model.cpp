@@ -66,6 +66,28 @@ std::array<const TextureUse*, 5> textures_of(const Material& m) {
     return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb};
 }
 
+constexpr std::array<std::string_view, 5> texture_defines = {"BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP",
+                                                              "OCCLUSION_MAP", "EMISSIVE_MAP"};
+
+std::uint32_t permutation_of(const Material& material) {
+    const auto uses = textures_of(material);
+    std::uint32_t bits = 0;
+    for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? 1U << t : 0U;
+    return bits;
+}
+
+Status make_permutation(std::map<std::uint32_t, gl::Program>& programs, std::uint32_t bits) {
+    if (programs.contains(bits)) return Done{};
+    std::vector<std::string_view> defines;
+    for (std::size_t t = 0; t < texture_defines.size(); ++t) {
+        if ((bits >> t & 1U) != 0) defines.push_back(texture_defines[t]);
+    }
+    Result<gl::Program> made = gl::make_program({"face.vert", "face.frag", defines});
+    if (!made) return made.error();
+    programs.emplace(bits, *std::move(made));
+    return Done{};
+}
+
 constexpr std::array<bool, 5> texture_is_srgb = {true, false, false, false, true};
 
 shared::MaterialBlock block_of(const Material& m) {
@@ -84,7 +106,7 @@ shared::MaterialBlock block_of(const Material& m) {
     }
     const auto set = [&](std::size_t t) { return static_cast<int>(uses[t]->uv_set); };
     block.uv_sets = glm::ivec4(set(0), set(1), set(2), set(3));
-    block.emissive_uv_set = glm::ivec4(set(4), m.normal.image >= 0 ? 1 : 0, 0, 0);
+    block.emissive_uv_set = glm::ivec4(set(4), 0, 0, 0);
     return block;
 }
 
@@ -148,10 +170,10 @@ Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_t
             slot = *std::move(made);
         }
     }
-    model.white = gl::make_texture(GL_TEXTURE_2D);
-    const std::array<std::uint8_t, 4> white_pixel = {255, 255, 255, 255};
-    glTextureStorage2D(model.white.name(), 1, GL_RGBA8, 1, 1);
-    glTextureSubImage2D(model.white.name(), 0, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, white_pixel.data());
+    if (Status made = make_permutation(model.programs, permutation_of(default_material())); !made) return made.error();
+    for (const Material& material : face.materials) {
+        if (Status made = make_permutation(model.programs, permutation_of(material)); !made) return made.error();
+    }
 
     for (std::size_t s = 0; s < model.samplers.size(); ++s) {
         model.samplers[s] = gl::make_sampler();
@@ -177,12 +199,14 @@ void FaceModel::bind_material(const Face& face, std::int32_t material) const {
     glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_MATERIAL_BINDING, material_blocks.name(),
                       static_cast<GLintptr>(index * material_stride), sizeof(shared::MaterialBlock));
     static const Material plain = default_material();
-    const auto uses = textures_of(material >= 0 ? face.materials[index] : plain);
+    const Material& described = material >= 0 ? face.materials[index] : plain;
+    glUseProgram(programs.at(permutation_of(described)).name());
+    const auto uses = textures_of(described);
     for (GLuint t = 0; t < uses.size(); ++t) {
         const TextureUse& use = *uses[t];
+        if (use.image < 0) continue;
         const auto image = static_cast<std::size_t>(use.image);
-        const gl::Texture& texture =
-            use.image < 0 ? white : texture_is_srgb[t] ? srgb_textures[image] : linear_textures[image];
+        const gl::Texture& texture = texture_is_srgb[t] ? srgb_textures[image] : linear_textures[image];
         glBindTextureUnit(BLUSH_BASE_COLOR_UNIT + t, texture.name());
         glBindSampler(BLUSH_BASE_COLOR_UNIT + t, samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
     }

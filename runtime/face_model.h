@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "rig/face.h"
 #include "rig/result.h"
 #include "runtime/gl/object.h"
+#include "runtime/gl/program.h"
 #include "runtime/stream_out.h"
 
 namespace blush {
@@ -17,7 +19,7 @@ struct FaceModel {
 
     /// Binds the vertex array with `surface` as its positions, normals and tangents.
     void bind_surface(const SurfaceBuffers& surface) const;
-    /// Binds the block and the textures of a material (-1: the default one).
+    /// Uses the program, and binds the block and the textures, of a material (-1: the default one).
     void bind_material(const Face& face, std::int32_t material) const;
     /// Binds entry `index` of draw_blocks.
     void bind_draw(std::size_t index) const;
@@ -33,7 +35,8 @@ struct FaceModel {
 
     /// By image, read as sRGB and read as it is; made only where a material reads them so.
     std::vector<gl::Texture> srgb_textures, linear_textures;
-    gl::Texture white;
+    /// Permutations of face.frag: bit t is set when the material has texture t, in the order of MaterialBlock.
+    std::map<std::uint32_t, gl::Program> programs;
     std::array<gl::Sampler, 4> samplers;  ///< bit 0: repeat u, bit 1: repeat v (else clamp)
 };
 

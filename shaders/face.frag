@@ -7,6 +7,8 @@ in vec3 normal_world;
 in vec4 tangent_world;
 in vec2 texture_uv[5];
 
+// Permutations: a map that the material lacks is not fetched (BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP,
+// OCCLUSION_MAP, EMISSIVE_MAP).
 layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
 layout(binding = BLUSH_METALLIC_ROUGHNESS_UNIT) uniform sampler2D metallic_roughness_map;
 layout(binding = BLUSH_NORMAL_MAP_UNIT) uniform sampler2D normal_map;
@@ -26,16 +28,16 @@ vec3 unit_or(vec3 v, vec3 fallback) {
 
 vec3 shading_normal(vec3 view_world) {
     vec3 n = unit_or(normal_world, view_world);
-    if (emissive_uv_set.y != 0) {
-        vec3 t = tangent_world.xyz - n * dot(n, tangent_world.xyz);
-        if (dot(t, t) > 1e-30) {
-            t = unit_or(t, vec3(1.0, 0.0, 0.0));
-            vec3 b = cross(n, t) * tangent_world.w;
-            vec3 m = texture(normal_map, texture_uv[2]).xyz * 2.0 - 1.0;
-            m.xy *= metallic_roughness_normal_occlusion.z;
-            n = unit_or(t * m.x + b * m.y + n * m.z, n);
-        }
+#ifdef NORMAL_MAP
+    vec3 t = tangent_world.xyz - n * dot(n, tangent_world.xyz);
+    if (dot(t, t) > 1e-30) {
+        t = unit_or(t, vec3(1.0, 0.0, 0.0));
+        vec3 b = cross(n, t) * tangent_world.w;
+        vec3 m = texture(normal_map, texture_uv[2]).xyz * 2.0 - 1.0;
+        m.xy *= metallic_roughness_normal_occlusion.z;
+        n = unit_or(t * m.x + b * m.y + n * m.z, n);
     }
+#endif
     // Both sides of a thin sheet are lit (glTF 2.0, 3.9.6); one-sided surfaces never show their back.
     return gl_FrontFacing ? n : -n;
 }
@@ -50,7 +52,10 @@ float specular_ggx(float n_l, float n_v, float n_h, float ggx_alpha) {
 }
 
 void main() {
-    vec4 base = base_color_linear * texture(base_color_map, texture_uv[0]);
+    vec4 base = base_color_linear;
+#ifdef BASE_COLOR_MAP
+    base *= texture(base_color_map, texture_uv[0]);
+#endif
     if (base.a < alpha.x) discard;
 
     vec3 view = unit_or(camera_world.xyz - position_world, vec3(0.0, 0.0, 1.0));
@@ -58,11 +63,17 @@ void main() {
     // Grazing pixels of interpolated normals may face away; the clamp keeps the visibility term's divisor above zero.
     float n_v = max(dot(n, view), 1e-3);
 
-    vec4 mr = texture(metallic_roughness_map, texture_uv[1]);
-    float metallic = clamp(metallic_roughness_normal_occlusion.x * mr.b, 0.0, 1.0);
+    vec2 roughness_metallic = metallic_roughness_normal_occlusion.yx;
+#ifdef METALLIC_ROUGHNESS_MAP
+    roughness_metallic *= texture(metallic_roughness_map, texture_uv[1]).gb;
+#endif
+    float metallic = clamp(roughness_metallic.y, 0.0, 1.0);
     // Below 0.045 the square of alpha underflows half precision and a highlight becomes a single burning pixel.
-    float roughness = clamp(metallic_roughness_normal_occlusion.y * mr.g, 0.045, 1.0);
-    float occlusion = 1.0 + metallic_roughness_normal_occlusion.w * (texture(occlusion_map, texture_uv[3]).r - 1.0);
+    float roughness = clamp(roughness_metallic.x, 0.045, 1.0);
+    float occlusion = 1.0;
+#ifdef OCCLUSION_MAP
+    occlusion += metallic_roughness_normal_occlusion.w * (texture(occlusion_map, texture_uv[3]).r - 1.0);
+#endif
     vec3 diffuse = base.rgb * (1.0 - metallic);
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
 
@@ -83,6 +94,10 @@ void main() {
         // radiance_linear is irradiance / pi: Lambert's 1 / pi cancels, the specular term keeps pi.
         result += ((1.0 - fresnel) * diffuse + pi * specular * fresnel) * lights[i].radiance_linear.rgb * n_l;
     }
-    result += emissive_linear.rgb * texture(emissive_map, texture_uv[4]).rgb;
+    vec3 emitted = emissive_linear.rgb;
+#ifdef EMISSIVE_MAP
+    emitted *= texture(emissive_map, texture_uv[4]).rgb;
+#endif
+    result += emitted;
     radiance_linear = vec4(min(result, vec3(largest_radiance)), max(base.a, alpha.y));
 }

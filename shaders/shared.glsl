@@ -78,5 +78,5 @@ BLUSH_UNIFORM_BLOCK(MaterialBlock, BLUSH_MATERIAL_BINDING) {
     vec4 alpha;                // x: cutoff, or -1 without alpha test; y: 1 when the surface is opaque; zw unused
     vec4 uv_rows[10];          // two rows of the 3x2 texture-coordinate transform of each of the five textures
     ivec4 uv_sets;             // texture-coordinate set of base colour, metallic-roughness, normal, occlusion
-    ivec4 emissive_uv_set;     // x: of emissive; y: 1 with a normal map; zw unused
+    ivec4 emissive_uv_set;     // x: of emissive; yzw unused
 };

@@ -102,9 +102,9 @@ GltfDocument open_document(ByteView file, const std::filesystem::path& path, con
     check_schema(container.json);
     std::vector<std::string> notes;
     check_extensions(container.json, notes);
-    tinygltf::Model model = parse_model(container.json);
-    GltfDocument document{path, std::move(container.json), std::move(model), {}, limits, 0, std::move(notes)};
+    GltfDocument document{path, std::move(container.json), {}, {}, limits, 0, std::move(notes)};
     document.buffers = GltfBuffers(document.json, container.binary, path, limits.file_bytes);
+    document.model = parse_model(document.json);
     // The slack allows small files to leave out data that glTF lets them leave out (zeros, indices of a triangle soup).
     constexpr std::uint64_t slack = 4'000'000;
     document.elements_left = slack + 4 * document.buffers.total_bytes();

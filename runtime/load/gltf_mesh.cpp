@@ -35,6 +35,8 @@ public:
     }
 
     const tinygltf::Primitive& source() const { return source_; }
+    /// Draco always decodes to a list.
+    int mode() const { return draco_ ? TINYGLTF_MODE_TRIANGLES : source_.mode; }
     const std::string& place() const { return place_; }
     bool has(const std::string& attribute) const { return source_.attributes.contains(attribute); }
     std::size_t accessor(const std::string& attribute) const {
@@ -117,7 +119,7 @@ std::vector<std::uint32_t> triangle_list(std::vector<std::uint32_t> indices, int
 
 void read_indices(GltfDocument& document, PrimitiveReader& reader, Primitive& primitive, Face& face) {
     primitive.first_index = static_cast<std::uint32_t>(face.indices.size());
-    const int mode = reader.source().mode;
+    const int mode = reader.mode();
     if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP && mode != TINYGLTF_MODE_TRIANGLE_FAN) {
         if (mode < 0 || mode > TINYGLTF_MODE_TRIANGLE_FAN)
             refuse(reader.place() + ".mode", std::to_string(mode) + " is not a mode of glTF");

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "runtime/load/bad_file.h"
+#include "runtime/load/png_check.h"
 
 namespace blush::load {
 namespace {
@@ -49,6 +50,7 @@ Image decode_image(ByteView encoded, std::uint32_t side_limit_pixels, std::uint6
                    const std::string& place) {
     const std::string format = format_of(encoded);
     if (format.empty()) refuse(place, "the image is not PNG, JPEG, WebP, HDR or EXR");
+    if (format == "png") check_png(encoded, place);
     OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
     OIIO::ImageSpec keep_as_stored;
     keep_as_stored.attribute("oiio:UnassociatedAlpha", 1);

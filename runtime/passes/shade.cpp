@@ -104,7 +104,6 @@ void shade(CharacterState& state, const FrameGraph& graph) {
     glNamedBufferSubData(state.model.frame_block.name(), 0, sizeof(block), &block);
     write_draw_blocks(state);
     glBindBufferBase(GL_UNIFORM_BUFFER, BLUSH_FRAME_BINDING, state.model.frame_block.name());
-    glUseProgram(state.face_program.name());
     state.model.bind_surface(*state.surface);
 
     glEnable(GL_DEPTH_TEST);

@@ -1,13 +1,210 @@
 #include "tools/blush/viewer.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "runtime/face_file.h"
+#include "runtime/offscreen.h"
+#include "runtime/output_file.h"
+#include "tools/blush/viewer_panel.h"
+#include "tools/blush/viewer_window.h"
 
 namespace blush::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The first of "name_0001.png", "name_0002.png", ... in the current folder that does not exist.
+fs::path free_picture_name(const std::string& name) {
+    for (unsigned number = 1;; ++number) {
+        std::string digits = std::to_string(number);
+        digits.insert(0, 4 - std::min<std::size_t>(4, digits.size()), '0');
+        const fs::path path = name + "_" + digits + ".png";
+        std::error_code failed;
+        if (!fs::exists(path, failed)) return path;
+    }
+}
+
+/// The loop, and what it draws.
+class Viewer {
+public:
+    Viewer(const ViewerOptions& options, Window& window, Panel& panel, Device device, Character& character,
+           Playback& playback, PlaybackClock clock)
+        : options_(options),
+          window_(window),
+          panel_(panel),
+          device_(std::move(device)),
+          character_(character),
+          playback_(playback),
+          name_(fs::path(options.face).stem().string()) {
+        state_.clock = clock;
+        state_.held_controls.resize(character.rig().control_names().size());
+    }
+
+    int run() {
+        const float panel_width = panel_.width();
+        window_.show({options_.width + static_cast<std::uint32_t>(panel_width), options_.height});
+        const bool counted = options_.frames > 0;
+        int frames = 0;
+        double last_seconds = glfwGetTime();
+        while (!counted || frames < options_.frames) {
+            if (!counted && idle()) {
+                window_.wait(state_);
+                last_seconds = glfwGetTime();  // time spent waiting is not played
+                frames_since_event_ = 0;
+            } else {
+                window_.poll(state_);
+            }
+            if (state_.quit_wanted) return 0;
+            const double now_seconds = glfwGetTime();
+            const double fixed_seconds = frames == 0 ? 0 : 1 / options_.frames_a_second;
+            state_.clock.advance(counted ? fixed_seconds : now_seconds - last_seconds);
+            last_seconds = now_seconds;
+            if (const int found = frame(); found != 0) return found;
+            ++frames;
+        }
+        return 0;
+    }
+
+private:
+    /// Nothing moves and the panel has settled, or there is nothing to draw into.
+    bool idle() const {
+        constexpr int frames_to_settle = 3;  // Dear ImGui answers an event over up to two frames
+        const Size pixels = window_.pixels();
+        return pixels.width == 0 || pixels.height == 0 ||
+               (!state_.clock.playing && frames_since_event_ >= frames_to_settle);
+    }
+
+    /// The part of the window that the panel leaves free, and a view of the whole window with the face in the middle of
+    /// that part.
+    struct Place {
+        Size free;
+        View view;
+    };
+    Place place(Size pixels) {
+        const auto panel_pixels = static_cast<std::uint32_t>(panel_.width() * window_.pixels_a_unit());
+        const std::uint32_t taken = state_.panel_shown ? std::min(panel_pixels, pixels.width / 2) : 0;
+        Place place;
+        place.free = {pixels.width - taken, pixels.height};
+        place.view.width = pixels.width;
+        place.view.height = pixels.height;
+        place.view.check_finite = options_.check_finite;
+        place.view.timed = panel_.passes_timed();
+        window_.home = character_.framing(aspect_of(place.free));
+        if (state_.camera_is_home) state_.camera = window_.home;
+        place.view.camera = state_.camera.camera(aspect_of(pixels));
+        // Clip coordinates reach from -1 to 1, so that a shift of `taken` / 2 pixels is this:
+        const float shift = static_cast<float>(taken) / static_cast<float>(pixels.width);
+        place.view.camera.clip_from_view =
+            glm::translate(glm::mat4(1), glm::vec3(shift, 0, 0)) * place.view.camera.clip_from_view;
+        return place;
+    }
+    static float aspect_of(Size size) { return static_cast<float>(size.width) / static_cast<float>(size.height); }
+
+    int frame() {
+        const double start_seconds = glfwGetTime();
+        playback_.seek(static_cast<float>(state_.clock.time_seconds));
+        apply_held(state_, character_.controls());
+        const Size pixels = window_.pixels();
+        if (pixels.width == 0 || pixels.height == 0) return 0;
+
+        const Place here = place(pixels);
+        const FrameReport& report = character_.draw(here.view);
+        if (const int found = report_not_finite(report); found != 0) return found;
+        panel_.draw({character_, report, frame_milliseconds_}, state_);
+        if (state_.screenshot_wanted) take_screenshot(here.free);
+        state_.screenshot_wanted = false;
+        set_title();
+        window_.present(options_.frames == 0);
+        ++frames_since_event_;
+
+        constexpr float share_of_new = 0.1F;  // a figure that can be read while it changes
+        const float milliseconds = static_cast<float>(1000 * (glfwGetTime() - start_seconds));
+        frame_milliseconds_ += (frame_milliseconds_ == 0 ? 1 : share_of_new) * (milliseconds - frame_milliseconds_);
+        return 0;
+    }
+
+    /// What the window shows beside the panel.
+    void take_screenshot(Size size) {
+        const fs::path path = free_picture_name(name_);
+        Result<Offscreen> offscreen = Offscreen::create(device_, size.width, size.height, Output::display_srgb);
+        if (!offscreen) {
+            fail(offscreen.error());
+            return;
+        }
+        View view = offscreen->view();
+        view.camera = state_.camera.camera(aspect_of(size));
+        character_.draw(view);
+        if (Status written = write_image(path, offscreen->read()); !written) {
+            fail(written.error());
+            return;
+        }
+        std::cout << path.string() << ": " << size.width << "x" << size.height << ", sRGB" << std::endl;
+    }
+
+    /// Says what the panel says, for when it is hidden.
+    void set_title() {
+        std::string speed = std::to_string(state_.clock.speed);
+        speed.erase(speed.find_last_not_of("0.") + 1);
+        std::string title = "blush: " + name_ + ", " + playback_.performance().performance().name;
+        if (state_.clock.speed != 1) title += ", x" + speed;
+        if (!state_.clock.playing) title += ", paused";
+        if (title != title_) window_.set_title(title);
+        title_ = std::move(title);
+    }
+
+    const ViewerOptions& options_;
+    Window& window_;
+    Panel& panel_;
+    Device device_;
+    Character& character_;
+    Playback& playback_;
+    std::string name_, title_;
+    ViewerState state_;
+    int frames_since_event_ = 0;
+    float frame_milliseconds_ = 0;
+};
+
+}  // namespace
 
 bool have_display() { return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr; }
 
-int run_viewer(const ViewerOptions& /*options*/) {
-    return fail({"there is no window yet; use -o"});
+int run_viewer(const ViewerOptions& options) {
+    if (!have_display()) {
+        return fail(
+            {"there is no display for a window (DISPLAY and WAYLAND_DISPLAY are not set); -o plays into files"});
+    }
+    // All input first: a bad file should not flash a window.
+    Result<Face> face = load_face(face_path(options.face));
+    if (!face) return fail(face.error());
+    Result<Performance> performance = find_performance(*face, options.performance);
+    if (!performance) return fail(performance.error());
+    const Result<PlaybackClock> clock =
+        make_clock(options.from_seconds, options.to_seconds, performance->duration_seconds, options.frames_a_second);
+    if (!clock) return fail(clock.error());
+
+    Result<std::unique_ptr<Window>> window = Window::open("blush");
+    if (!window) return fail(window.error());
+    Result<Device> device = Device::adopt_current();
+    if (!device) return fail(device.error());
+    Result<Character> character = Character::create(*device, *std::move(face));
+    if (!character) return fail(character.error());
+    if (Status set = options.pose.apply(character->face(), character->rig(), character->controls()); !set) {
+        return fail(set.error());
+    }
+    if (Status set = options.pose.apply_settings(*character); !set) return fail(set.error());
+    Playback playback(*character, BoundPerformance(*std::move(performance), character->rig()));
+    report_matches(playback.performance(), character->face());
+    Result<std::unique_ptr<Panel>> panel = Panel::create((*window)->handle(), (*window)->text_scale());
+    if (!panel) return fail(panel.error());
+    return Viewer(options, **window, **panel, *device, *character, playback, *clock).run();
 }
 
 }  // namespace blush::tool

@@ -10,7 +10,7 @@ struct ViewerOptions {
     std::string face;
     std::string performance;     ///< as find_performance() takes it
     PoseOptions pose;
-    std::uint32_t width = 960, height = 960;  ///< of the window, pixels
+    std::uint32_t width = 960, height = 960;  ///< of the picture beside the panel, window coordinates
     float from_seconds = 0;
     float to_seconds = -1;       ///< negative: to the end
     double frames_a_second = 30; ///< of single steps
