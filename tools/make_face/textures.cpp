@@ -221,7 +221,9 @@ Picture paint_roughness(const Head& head, int side) {
             roughness = mix(roughness, hair, std::max(hair_paint(spot.p), 0.8 * brow_cover(spot.p)));
         }
         if (spot.part == Part::mouth_lining || spot.part == Part::lid_lining)
-            roughness = mix(lip, wet, smooth_step(0, 0.3, spot.depth));
+            roughness = mix(lip, wet, smooth_step(0, 0.2, spot.depth));
+        // No light reaches the depth of the mouth; a renderer without shadows must not find a highlight there.
+        if (spot.part == Part::mouth_lining) roughness = mix(roughness, 1, smooth_step(0.25, 0.5, spot.depth));
         picture
             .rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)) + 1] =
             to_byte(roughness);
