@@ -1,5 +1,7 @@
 #include "tools/make_face/build_face.h"
 
+#include <future>
+
 #include "tools/make_face/expressions.h"
 #include "tools/make_face/eyes.h"
 #include "tools/make_face/hair.h"
@@ -13,6 +15,9 @@ FaceParts build_face(std::size_t vertices) {
     FaceParts face;
     Head head = make_head(vertices);
     grow_hair(head);
+    // The shapes are worked out while the textures are painted and packed.
+    std::future<std::vector<ShapeTarget>> shapes =
+        std::async(std::launch::async, [&head] { return head_targets(head); });
 
     enum MaterialIndex : std::size_t { skin, eye, tooth, gum, tongue, lash };
     constexpr int skin_texture_side = 2048, pore_texture_side = 1024, eye_texture_side = 1024,
@@ -58,7 +63,7 @@ FaceParts build_face(std::size_t vertices) {
         face.meshes.push_back({name, mesh, material, std::move(targets)});
         face.nodes.push_back({name, place, static_cast<int>(face.meshes.size() - 1)});
     };
-    const std::vector<ShapeTarget> targets = head_targets(head);
+    const std::vector<ShapeTarget> targets = shapes.get();
     const Lashes lashes = make_lashes(head);
     add("skin", head.mesh, skin, targets);
     add("lashes", lashes.mesh, lash, lash_targets(lashes, head, targets));

@@ -37,6 +37,10 @@ void paint_rows(const Head& head, int side, int first_row, int last_row, Paint p
                    c = mesh.uv[t[2]] * static_cast<double>(side);
         const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
         if (std::abs(area) < 1e-9) continue;
+        constexpr double past_edge_texels = 0.7;  // so that no texel of a seam stays bare
+        const double least_a = -past_edge_texels * glm::length(c - b) / std::abs(area),
+                     least_b = -past_edge_texels * glm::length(a - c) / std::abs(area),
+                     least_c = -past_edge_texels * glm::length(b - a) / std::abs(area);
         const auto low = [&](double x, double y, double z) {
             return std::max(0, static_cast<int>(std::floor(std::min({x, y, z}) - 1)));
         };
@@ -55,8 +59,7 @@ void paint_rows(const Head& head, int side, int first_row, int last_row, Paint p
                 double wa = ((b.x - q.x) * (c.y - q.y) - (c.x - q.x) * (b.y - q.y)) / area;
                 double wb = ((c.x - q.x) * (a.y - q.y) - (a.x - q.x) * (c.y - q.y)) / area;
                 double wc = 1 - wa - wb;
-                constexpr double outside = -0.02;  // a hair's breadth past the edge, so that no seam stays bare
-                if (wa < outside || wb < outside || wc < outside) continue;
+                if (wa < least_a || wb < least_b || wc < least_c) continue;
                 spot.p = mesh.positions[t[0]] * wa + mesh.positions[t[1]] * wb + mesh.positions[t[2]] * wc;
                 spot.normal =
                     glm::normalize(mesh.normals[t[0]] * wa + mesh.normals[t[1]] * wb + mesh.normals[t[2]] * wc);
@@ -218,7 +221,9 @@ Picture paint_roughness(const Head& head, int side) {
             roughness = mix(roughness, hair, std::max(hair_paint(spot.p), 0.8 * brow_cover(spot.p)));
         }
         if (spot.part == Part::mouth_lining || spot.part == Part::lid_lining)
-            roughness = mix(lip, wet, smooth_step(0, 0.3, spot.depth));
+            roughness = mix(lip, wet, smooth_step(0, 0.2, spot.depth));
+        // No light reaches the depth of the mouth; a renderer without shadows must not find a highlight there.
+        if (spot.part == Part::mouth_lining) roughness = mix(roughness, 1, smooth_step(0.25, 0.5, spot.depth));
         picture
             .rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)) + 1] =
             to_byte(roughness);
