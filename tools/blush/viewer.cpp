@@ -70,6 +70,7 @@ public:
             if (const int found = frame(); found != 0) return found;
             ++frames;
         }
+        std::cout << frames_drawn_ << " frames of " << last_drawn_.width << "x" << last_drawn_.height << "\n";
         return 0;
     }
 
@@ -124,6 +125,8 @@ private:
         set_title();
         window_.present(options_.frames == 0);
         ++frames_since_event_;
+        ++frames_drawn_;
+        last_drawn_ = pixels;
 
         constexpr float share_of_new = 0.1F;  // a figure that can be read while it changes
         const float milliseconds = static_cast<float>(1000 * (glfwGetTime() - start_seconds));
@@ -168,7 +171,8 @@ private:
     Playback& playback_;
     std::string name_, title_;
     ViewerState state_;
-    int frames_since_event_ = 0;
+    int frames_since_event_ = 0, frames_drawn_ = 0;
+    Size last_drawn_;  // pixels
     float frame_milliseconds_ = 0;
 };
 

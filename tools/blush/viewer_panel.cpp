@@ -1,8 +1,10 @@
 #include "tools/blush/viewer_panel.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 
 #include <imgui/backends/imgui_impl_glfw.h>
 #include <imgui/backends/imgui_impl_opengl3.h>
@@ -80,9 +82,10 @@ void Panel::draw_clock(PlaybackClock& clock) {
     ImGui::Separator();
     ImGui::SetNextItemWidth(-1);
     float time_seconds = static_cast<float>(clock.time_seconds);
-    const std::string format = "%.2f of " + std::to_string(clock.to_seconds).substr(0, 5) + " s";
+    std::array<char, 64> format;  // in which the slider fills in the time
+    std::snprintf(format.data(), format.size(), "%%.2f of %.2f s", clock.to_seconds);
     if (ImGui::SliderFloat("##time", &time_seconds, static_cast<float>(clock.from_seconds),
-                           static_cast<float>(clock.to_seconds), format.c_str(), ImGuiSliderFlags_NoInput)) {
+                           static_cast<float>(clock.to_seconds), format.data(), ImGuiSliderFlags_NoInput)) {
         clock.scrub(static_cast<double>(time_seconds));
     }
     // The label after ### keeps the button the same one, whatever it says.

@@ -101,6 +101,11 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title) {
     constexpr int any_size = 64;
     GLFWwindow* window = glfwCreateWindow(any_size, any_size, title.c_str(), nullptr, nullptr);
     if (!window) {
+        // Some X servers (of remote desktops, above all) speak no GLX; EGL needs nothing of them.
+        glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+        window = glfwCreateWindow(any_size, any_size, title.c_str(), nullptr, nullptr);
+    }
+    if (!window) {
         const std::string reason = glfw_reason();
         glfwTerminate();
         return Error{"this display offers no OpenGL 4.5 core context: " + reason};
