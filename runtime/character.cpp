@@ -42,9 +42,7 @@ Status build_programs(CharacterState& state) {
 Character::Character(std::unique_ptr<CharacterState> state) : state_(std::move(state)) {}
 Character::Character(Character&&) noexcept = default;
 Character& Character::operator=(Character&&) noexcept = default;
-Character::~Character() {
-    if (state_) state_->device.make_current();  // its GL objects must go in their own context
-}
+Character::~Character() = default;
 
 Result<Character> Character::load(const Device& device, const std::filesystem::path& path) {
     Result<Face> face = load_face(path);

@@ -39,6 +39,7 @@ struct FrameResources {
 
 struct CharacterState {
     CharacterState(Device on, Face loaded) : device(std::move(on)), face(std::move(loaded)), rig(face) {}
+    ~CharacterState() { device.make_current(); }  // the GL objects below must go in their own context
 
     Device device;
     Face face;

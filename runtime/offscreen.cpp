@@ -9,6 +9,7 @@ namespace blush {
 
 struct Offscreen::State {
     explicit State(Device on) : device(std::move(on)) {}
+    ~State() { device.make_current(); }  // the GL objects below must go in their own context
     Device device;
     std::uint32_t width = 0, height = 0;
     Output output = Output::display_srgb;
@@ -19,9 +20,7 @@ struct Offscreen::State {
 Offscreen::Offscreen(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Offscreen::Offscreen(Offscreen&&) noexcept = default;
 Offscreen& Offscreen::operator=(Offscreen&&) noexcept = default;
-Offscreen::~Offscreen() {
-    if (state_) state_->device.make_current();
-}
+Offscreen::~Offscreen() = default;
 
 Result<Offscreen> Offscreen::create(const Device& device, std::uint32_t width, std::uint32_t height, Output output) {
     const auto largest = static_cast<std::uint32_t>(device.info().largest_texture_side_texels);

@@ -40,13 +40,14 @@ void upload(gl::Buffer& buffer, std::size_t& capacity, const void* data, std::si
 
 }  // namespace
 
-Result<StreamOut> StreamOut::create(const Device& device, const Face& face) {
+Result<StreamOut> StreamOut::create(const Device& device, const Face& face, std::uint64_t largest_block_bytes) {
     StreamOut stream_out(device, face);
-    if (Status built = stream_out.build(); !built) return built.error();
+    if (largest_block_bytes == 0) largest_block_bytes = device.info().largest_storage_block_bytes;
+    if (Status built = stream_out.build(largest_block_bytes); !built) return built.error();
     return stream_out;
 }
 
-Status StreamOut::build() {
+Status StreamOut::build(std::uint64_t largest_block_bytes) {
     const Face& face = *face_;
     rest_.positions = gl::make_buffer<glm::vec3>(face.positions);
     rest_.normals = gl::make_buffer<glm::vec3>(face.normals);
@@ -59,7 +60,7 @@ Status StreamOut::build() {
     moved_ranges_recomputed_ = ranges(NormalMethod::recomputed);
     has_normal_deltas_ = std::ranges::any_of(face.targets, [](const Target& t) { return !t.normal_deltas.empty(); });
     has_tangent_deltas_ = std::ranges::any_of(face.targets, [](const Target& t) { return !t.tangent_deltas.empty(); });
-    if (Status pages = build_pages(); !pages) return pages;
+    if (Status pages = build_pages(largest_block_bytes); !pages) return pages;
     weights_ = gl::make_buffer(0, nullptr);
 
     std::vector<std::string_view> defines;
@@ -101,10 +102,10 @@ Status StreamOut::build() {
     return Done{};
 }
 
-Status StreamOut::build_pages() {
+Status StreamOut::build_pages(std::uint64_t largest_block_bytes) {
     const Face& face = *face_;
     sparse_ = std::make_unique<SparseBlocks>(face);
-    const std::uint64_t largest = device_.info().largest_storage_block_bytes / vec3_bytes;
+    const std::uint64_t largest = largest_block_bytes / vec3_bytes;
     const auto target_count = static_cast<std::uint32_t>(face.targets.size());
 
     std::uint32_t first = 0;
@@ -114,8 +115,8 @@ Status StreamOut::build_pages() {
         while (last < target_count && sparse_->first_delta[last + 1] - first_delta <= largest) ++last;
         if (last == first) {
             return Error{face.path + ": target \"" + face.targets[first].name + "\" moves " +
-                         std::to_string(face.targets[first].vertices.size()) + " vertices; " +
-                         device_.info().renderer + " holds " + std::to_string(largest) + " in one block"};
+                         std::to_string(face.targets[first].vertices.size()) + " vertices; " + device_.info().renderer +
+                         " holds " + std::to_string(largest) + " in one block"};
         }
         Page page;
         page.first_target = first;
@@ -136,8 +137,8 @@ Status StreamOut::build_pages() {
         page.positions = gather(&Target::position_deltas);
         page.normals = has_normal_deltas_ ? gather(&Target::normal_deltas) : gl::make_buffer(0, nullptr);
         page.tangents = has_tangent_deltas_ ? gather(&Target::tangent_deltas) : gl::make_buffer(0, nullptr);
-        page.first_entry = gl::make_buffer((sparse_->block_count + 1) * sizeof(std::uint32_t), nullptr,
-                                           GL_DYNAMIC_STORAGE_BIT);
+        page.first_entry =
+            gl::make_buffer((sparse_->block_count + 1) * sizeof(std::uint32_t), nullptr, GL_DYNAMIC_STORAGE_BIT);
         page.entries = gl::make_buffer(0, nullptr);
         pages_.push_back(std::move(page));
         first = last;

@@ -1,6 +1,6 @@
 #pragma once
-/// StreamOut: the deformation of a face by transform feedback (jimenez-2012, 7.6 and 8.3: "we store a set of transformed
-/// vertices into a buffer"). The GPU twin of rig/deform.h.
+/// StreamOut: the deformation of a face by transform feedback (jimenez-2012, 7.6 and 8.3: "we store a set of
+/// transformed vertices into a buffer"). The GPU twin of rig/deform.h.
 
 #include <cstdint>
 #include <map>
@@ -25,8 +25,9 @@ struct SurfaceBuffers {
 
 class StreamOut {
 public:
-    /// `face` must outlive the object. Error: one target alone moves more vertices than a storage block holds.
-    static Result<StreamOut> create(const Device& device, const Face& face);
+    /// `face` must outlive the object. largest_block_bytes: deltas beyond it go into several pages; 0: what the device
+    /// takes in one storage block. Error: one target alone moves more vertices than a block holds.
+    static Result<StreamOut> create(const Device& device, const Face& face, std::uint64_t largest_block_bytes = 0);
 
     const SurfaceBuffers& rest() const { return rest_; }
     const SurfaceBuffers& deformed() const { return deformed_; }
@@ -70,8 +71,8 @@ private:
     };
 
     StreamOut(Device device, const Face& face) : device_(std::move(device)), face_(&face) {}
-    Status build();
-    Status build_pages();
+    Status build(std::uint64_t largest_block_bytes);
+    Status build_pages(std::uint64_t largest_block_bytes);
     std::vector<Range> ranges(NormalMethod method) const;
     void bind_source(const SurfaceBuffers& source);
     void stream(const Range& range, const SurfaceBuffers& destination);

@@ -98,6 +98,8 @@ const std::vector<Block>& shared_blocks() {
     return blocks;
 }
 
+}  // namespace
+
 Status check_blocks(GLuint program, std::string_view file) {
     for (const Block& block : shared_blocks()) {
         const GLuint index = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, block.name);
@@ -122,8 +124,6 @@ Status check_blocks(GLuint program, std::string_view file) {
     }
     return Done{};
 }
-
-}  // namespace
 
 Result<std::string> expand_shader(std::string_view file, std::span<const std::string_view> defines) {
     std::string out = "#version 450 core\n";
