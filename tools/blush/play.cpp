@@ -34,7 +34,8 @@ struct Range {
 
 Result<Range> range_of(const Options& options, float duration_seconds) {
     Range range{options.from_seconds, options.to_seconds < 0 ? duration_seconds : options.to_seconds, 1};
-    if (range.to_seconds < range.from_seconds || range.from_seconds > duration_seconds) {
+    // Asked this way round, a NaN is no part either.
+    if (!(range.from_seconds <= range.to_seconds) || !(range.from_seconds <= duration_seconds)) {
         return Error{"--from " + std::to_string(range.from_seconds) + " --to " + std::to_string(range.to_seconds) +
                      ": not a part of a performance of " + std::to_string(duration_seconds) + " seconds"};
     }
