@@ -41,7 +41,7 @@ Result<Range> range_of(const Options& options, float duration_seconds) {
     }
     const double frames = std::floor((double{range.to_seconds} - double{range.from_seconds}) * options.frames_a_second);
     constexpr double most_frames = 1e6;  // more than nine hours at 30 a second: a slip of the finger
-    if (frames > most_frames) return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
+    if (!(frames <= most_frames)) return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
     range.frames = static_cast<std::size_t>(frames) + 1;
     return range;
 }
