@@ -122,6 +122,8 @@ TEST(MakeClock, RefusesWhatIsNoPartOfThePerformance) {
     EXPECT_EQ(backwards.error().message,
               "--from 3.000000 --to 2.000000: not a part of a performance of 4.000000 seconds");
     EXPECT_FALSE(make_clock(5, -1, 4, 30)) << "begins after the end";
+    EXPECT_FALSE(make_clock(0, -1, 4, 0)) << "no frames a second";
+    EXPECT_FALSE(make_clock(0, -1, 4, nan));
     EXPECT_FALSE(make_clock(std::nanf(""), -1, 4, 30));
     EXPECT_FALSE(make_clock(0, std::nanf(""), 4, 30));
     EXPECT_FALSE(make_clock(0, std::numeric_limits<float>::infinity(), 4, 30));

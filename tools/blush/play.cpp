@@ -34,13 +34,14 @@ struct Range {
 
 Result<Range> range_of(const Options& options, float duration_seconds) {
     Range range{options.from_seconds, options.to_seconds < 0 ? duration_seconds : options.to_seconds, 1};
-    if (range.to_seconds < range.from_seconds || range.from_seconds > duration_seconds) {
+    // Asked this way round, a NaN is no part either.
+    if (!(range.from_seconds <= range.to_seconds) || !(range.from_seconds <= duration_seconds)) {
         return Error{"--from " + std::to_string(range.from_seconds) + " --to " + std::to_string(range.to_seconds) +
                      ": not a part of a performance of " + std::to_string(duration_seconds) + " seconds"};
     }
     const double frames = std::floor((double{range.to_seconds} - double{range.from_seconds}) * options.frames_a_second);
     constexpr double most_frames = 1e6;  // more than nine hours at 30 a second: a slip of the finger
-    if (frames > most_frames) return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
+    if (!(frames <= most_frames)) return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
     range.frames = static_cast<std::size_t>(frames) + 1;
     return range;
 }

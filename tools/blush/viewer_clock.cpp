@@ -42,6 +42,7 @@ Result<PlaybackClock> make_clock(float from_seconds, float to_seconds, float dur
         return Error{"--from " + std::to_string(from_seconds) + " --to " + std::to_string(end_seconds) +
                      ": not a part of a performance of " + std::to_string(duration_seconds) + " seconds"};
     }
+    if (!(frames_a_second > 0)) return Error{"--fps " + std::to_string(frames_a_second) + ": not a number above 0"};
     return PlaybackClock{double{from_seconds}, double{end_seconds}, frames_a_second, double{from_seconds}};
 }
 

@@ -27,7 +27,7 @@ struct PlaybackClock {
 };
 
 /// A clock at `from_seconds`. A negative `to_seconds` stands for the end of the performance.
-/// Error: a part that ends before it begins, or begins after the performance has ended.
+/// Error: a part that ends before it begins, or begins after the performance has ended; no frames a second.
 Result<PlaybackClock> make_clock(float from_seconds, float to_seconds, float duration_seconds, double frames_a_second);
 
 }  // namespace blush::tool

@@ -21,7 +21,7 @@ const ImVec4 on_color(0.55F, 0.85F, 0.55F, 1), off_color(0.70F, 0.70F, 0.70F, 1)
 
 bool contains_ignoring_case(std::string_view text, std::string_view part) {
     const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-    return std::ranges::search(text, part, same).begin() != text.end() || part.empty();
+    return part.empty() || std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
 void text(std::string_view line) { ImGui::TextUnformatted(line.data(), line.data() + line.size()); }
