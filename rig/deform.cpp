@@ -22,7 +22,7 @@ void Deformer::deform(std::span<const float> weights, NormalMethod method, Defor
                 // TANGENT deltas belong to NORMAL deltas that are not used here.
                 tangent = rest_tangent;
                 normal = turned_normal(rest_normal, topology_.rest_sums[v],
-                                       area_weighted_normal(topology_, out.positions, v));
+                                       angle_weighted_normal(topology_, out.positions, v));
             } else if (normal != rest_normal) {
                 normal = normalized_or(normal, rest_normal);
             }

@@ -1,16 +1,24 @@
 #include "rig/deform_exact.h"
 
+#include <cmath>
+
 #include "rig/surface_normals.h"
 
 namespace blush {
 namespace {
 
-glm::dvec3 area_weighted(const NormalTopology& topology, const std::vector<glm::dvec3>& positions, std::size_t vertex) {
+glm::dvec3 angle_weighted(const NormalTopology& topology, const std::vector<glm::dvec3>& positions, std::size_t vertex) {
     glm::dvec3 sum(0);
     for (std::uint32_t i = topology.first_triangle[vertex]; i < topology.first_triangle[vertex + 1]; ++i) {
         const glm::uvec3 triangle = topology.triangles[i];
         const glm::dvec3 a = positions[triangle.x];
-        sum += glm::cross(positions[triangle.y] - a, positions[triangle.z] - a);
+        const glm::dvec3 u = positions[triangle.y] - a, v = positions[triangle.z] - a;
+        const glm::dvec3 normal = glm::cross(u, v);
+        const double sine = glm::length(normal);
+        // Where single precision has no direction either (surface_normals.h), the triangle adds nothing.
+        constexpr double smallest_sine = 1e-15;
+        if (!(sine > smallest_sine * glm::length(u) * glm::length(v))) continue;
+        sum += normal * (std::atan2(sine, glm::dot(u, v)) / sine);
     }
     return sum;
 }
@@ -48,8 +56,8 @@ ExactSurface deform_exact(const Face& face, std::span<const float> weights) {
     for (const Primitive& primitive : face.primitives) {
         if (primitive.normal_source == NormalSource::rest) continue;
         for (std::uint32_t v = primitive.first_vertex; v < primitive.first_vertex + primitive.vertex_count; ++v) {
-            surface.normals[v] = turned(surface.normals[v], area_weighted(topology, rest, v),
-                                        area_weighted(topology, surface.positions, v));
+            surface.normals[v] = turned(surface.normals[v], angle_weighted(topology, rest, v),
+                                        angle_weighted(topology, surface.positions, v));
         }
     }
     return surface;

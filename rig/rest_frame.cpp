@@ -54,10 +54,14 @@ std::vector<glm::vec3> smooth_normals(std::span<const glm::vec3> positions, std:
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
     for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
-        const glm::dvec3 origin(positions[a]);
-        // Its length is twice the area, which is the weight.
-        const glm::dvec3 normal = glm::cross(glm::dvec3(positions[b]) - origin, glm::dvec3(positions[c]) - origin);
-        for (const std::uint32_t vertex : {a, b, c}) sums[representative[vertex]] += normal;
+        const glm::dvec3 corners[] = {glm::dvec3(positions[a]), glm::dvec3(positions[b]), glm::dvec3(positions[c])};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3 u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
+            const glm::dvec3 normal = glm::cross(u, v);
+            const double twice_area = glm::length(normal);
+            if (!(twice_area > 0) || !std::isfinite(twice_area)) continue;
+            sums[representative[triangles[i + k]]] += normal * (std::atan2(twice_area, glm::dot(u, v)) / twice_area);
+        }
     }
     std::vector<glm::vec3> normals(positions.size());
     for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit_or(sums[representative[i]], glm::vec3(0, 0, 1));

@@ -25,7 +25,7 @@ void main() {
         vec3 a = position_of(triangles[3u * i]);
         precise vec3 ab = position_of(triangles[3u * i + 1u]) - a;
         precise vec3 ac = position_of(triangles[3u * i + 2u]) - a;
-        sum += cross3(ab, ac);
+        sum += angle_times_normal(ab, ac);
     }
     vec3 n = turned_normal(rest_normal, rest_sum, sum);
     vec4 t = rest_tangent;

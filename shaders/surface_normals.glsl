@@ -21,6 +21,29 @@ vec3 normalized_or(vec3 v, vec3 fallback) {
     return n;
 }
 
+float angle_of(float sine, float cosine) {
+    float size = abs(cosine);
+    bool steep = sine > size;
+    precise float ratio = steep ? size * (1.0 / sine) : sine * (1.0 / size);
+    precise float t2 = ratio * ratio;
+    precise float angle =
+        ratio * (0.9998660 + t2 * (-0.3302995 + t2 * (0.1801410 + t2 * (-0.0851330 + t2 * 0.0208351))));
+    if (steep) angle = 1.57079633 - angle;
+    return cosine < 0.0 ? 3.14159265 - angle : angle;
+}
+
+vec3 angle_times_normal(vec3 edge, vec3 other_edge) {
+    vec3 u = normalized_or(edge, vec3(0.0));
+    vec3 v = normalized_or(other_edge, vec3(0.0));
+    vec3 normal = cross3(u, v);
+    float sine2 = dot3(normal, normal);
+    if (!(sine2 > 1e-30)) return vec3(0.0);
+    precise float sine = sqrt(sine2);
+    precise float weight = angle_of(sine, dot3(u, v)) * (1.0 / sine);
+    precise vec3 weighted = normal * weight;
+    return weighted;
+}
+
 vec3 turned_normal(vec3 rest_normal, vec3 rest_sum, vec3 deformed_sum) {
     if (rest_sum == deformed_sum) return rest_normal;
     vec3 from = normalized_or(rest_sum, vec3(0.0));

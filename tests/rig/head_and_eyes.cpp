@@ -96,7 +96,7 @@ TEST(HeadAndEyes, AFaceWithoutEyeNodesHasNone) {
     Face no_nodes = face;
     no_nodes.nodes.clear();
     EXPECT_EQ(find_head_and_eyes(no_nodes).head.node, -1);
-    EXPECT_TRUE(rest_bounds(no_nodes).empty());
+    EXPECT_TRUE(moving_bounds(no_nodes).empty());
 }
 
 TEST(HeadAndEyes, AnEyeWhoseOriginLiesOutsideTurnsAboutItsCentre) {
@@ -153,7 +153,7 @@ TEST(WorldFromNodes, TheHeadCarriesEverythingRigidly) {
         }
     }
     // The pivot: in the middle from side to side, a third of the way up.
-    const Bounds bounds = rest_bounds(face);
+    const Bounds bounds = moving_bounds(face);
     const glm::vec3 pivot = found.head.point_node;
     EXPECT_NEAR(pivot.x, bounds.centre().x, 1e-6F);
     EXPECT_NEAR(pivot.y, bounds.low.y + bounds.size().y / 3, 1e-6F);

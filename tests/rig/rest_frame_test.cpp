@@ -22,14 +22,16 @@ TEST(RestFrame, PerpendicularIsPerpendicular) {
     expect_unit(any_perpendicular(glm::vec3(std::numeric_limits<float>::quiet_NaN())));
 }
 
-TEST(RestFrame, NormalsAreWeightedByAreaAndWelded) {
+TEST(RestFrame, NormalsAreWeightedByAngleAndWelded) {
     // A triangle of area 2 in z = 0 and one of area 0.5 in x = 0 share the edge from (0,0,0) to (0,1,0)... once by
     // index, once by position alone: the results are the same.
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {4, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const auto normals = smooth_normals(positions, std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5});
-    // cross products: (0,0,4) and (1,0,0)
-    const glm::vec3 expected = glm::normalize(glm::vec3(1, 0, 4));
-    for (const std::size_t i : {0U, 2U, 3U, 4U}) EXPECT_LT(glm::distance(normals[i], expected), tolerance) << i;
+    // Both have a right angle at (0,0,0); at (0,1,0) the angles are atan(4) and 45 degrees.
+    const glm::vec3 at_origin = glm::normalize(glm::vec3(1, 0, 1));
+    const glm::vec3 at_top = glm::normalize(glm::vec3(std::atan(1.0F), 0, std::atan(4.0F)));
+    for (const std::size_t i : {0U, 3U}) EXPECT_LT(glm::distance(normals[i], at_origin), tolerance) << i;
+    for (const std::size_t i : {2U, 4U}) EXPECT_LT(glm::distance(normals[i], at_top), tolerance) << i;
     EXPECT_EQ(normals[1], glm::vec3(0, 0, 1));
     EXPECT_EQ(normals[5], glm::vec3(1, 0, 0));
 }
