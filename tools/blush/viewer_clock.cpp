@@ -43,7 +43,11 @@ Result<PlaybackClock> make_clock(float from_seconds, float to_seconds, float dur
                      ": not a part of a performance of " + std::to_string(duration_seconds) + " seconds"};
     }
     if (!(frames_a_second > 0)) return Error{"--fps " + std::to_string(frames_a_second) + ": not a number above 0"};
-    return PlaybackClock{double{from_seconds}, double{end_seconds}, frames_a_second, double{from_seconds}};
+    PlaybackClock clock;
+    clock.from_seconds = clock.time_seconds = static_cast<double>(from_seconds);
+    clock.to_seconds = static_cast<double>(end_seconds);
+    clock.frames_a_second = frames_a_second;
+    return clock;
 }
 
 }  // namespace blush::tool

@@ -63,7 +63,8 @@ void Panel::draw(const Shown& shown, ViewerState& state) {
         const ImVec2 window = ImGui::GetIO().DisplaySize;
         ImGui::SetNextWindowPos({0, 0});
         ImGui::SetNextWindowSize({std::min(width_, 0.5F * window.x), window.y});
-        constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+        constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                           ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
         ImGui::Begin("panel", nullptr, fixed);
         ImGui::Text("%.1f ms a frame, %u triangles", static_cast<double>(shown.frame_milliseconds),
@@ -151,7 +152,10 @@ void Panel::draw_controls(Character& character, ViewerState& state) {
         }
         listed_current_ = true;
     }
-    ImGui::BeginChild("list");
+    // In a low window the whole panel scrolls, rather than the list shrink to nothing.
+    constexpr float fewest_rows = 8;
+    const float least_height = fewest_rows * ImGui::GetFrameHeightWithSpacing();
+    ImGui::BeginChild("list", {0, std::max(ImGui::GetContentRegionAvail().y, least_height)});
     ImGuiListClipper clipper;  // of thousands of controls, only the rows in sight are made
     clipper.Begin(static_cast<int>(listed_controls_.size()));
     while (clipper.Step()) {
