@@ -46,7 +46,7 @@ ExactSurface deform_exact(const Face& face, std::span<const float> weights) {
         if (weights[t] == 0) continue;
         const Target& target = face.targets[t];
         for (std::size_t i = 0; i < target.vertices.size(); ++i) {
-            surface.positions[target.vertices[i]] += double{weights[t]} * glm::dvec3(target.position_deltas[i]);
+            surface.positions[target.vertices[i]] += static_cast<double>(weights[t]) * glm::dvec3(target.position_deltas[i]);
         }
     }
 

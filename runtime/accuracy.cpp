@@ -66,7 +66,7 @@ double head_scale(const Face& face) {
     Bounds bounds;
     for (const glm::vec3 position : face.positions) bounds.add(position);
     const glm::vec3 size = bounds.size();
-    return head_mm / double{std::max({size.x, size.y, size.z, 1e-12F})};
+    return head_mm / static_cast<double>(std::max({size.x, size.y, size.z, 1e-12F}));
 }
 
 }  // namespace

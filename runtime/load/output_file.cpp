@@ -73,7 +73,7 @@ void append(std::string& text, const char* format, Numbers... numbers) {
     text.append(line.data(), static_cast<std::size_t>(length));
 }
 
-double d(float value) { return double{value}; }
+double d(float value) { return static_cast<double>(value); }
 
 std::string ply_of(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                    std::span<const std::uint32_t> indices) {

@@ -39,7 +39,7 @@ Result<Range> range_of(const Options& options, float duration_seconds) {
         return Error{"--from " + std::to_string(range.from_seconds) + " --to " + std::to_string(range.to_seconds) +
                      ": not a part of a performance of " + std::to_string(duration_seconds) + " seconds"};
     }
-    const double frames = std::floor((double{range.to_seconds} - double{range.from_seconds}) * options.frames_a_second);
+    const double frames = std::floor((static_cast<double>(range.to_seconds) - static_cast<double>(range.from_seconds)) * options.frames_a_second);
     constexpr double most_frames = 1e6;  // more than nine hours at 30 a second: a slip of the finger
     if (!(frames <= most_frames)) return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
     range.frames = static_cast<std::size_t>(frames) + 1;
@@ -92,7 +92,7 @@ Status write_frames(FrameSource& source, const Options& options, const Range& ra
     Progress progress("frames", range.frames);
     const auto each = [&](const std::function<Status(std::size_t, const Image&)>& keep) -> Status {
         for (std::size_t f = 0; f < range.frames; ++f) {
-            const double time = double{range.from_seconds} + static_cast<double>(f) / options.frames_a_second;
+            const double time = static_cast<double>(range.from_seconds) + static_cast<double>(f) / options.frames_a_second;
             const Result<Image> image = source.frame_at(time);
             if (!image) return image.error();
             if (Status kept = keep(f, *image); !kept) return kept;
@@ -120,7 +120,7 @@ Status write_contact_sheet(FrameSource& source, const Options& options, const Ra
         // The middles of eight equal parts: the ends of a performance are mostly neutral.
         const double share = (moment + 0.5) / (columns * rows);
         const Result<Image> image =
-            source.frame_at(double{range.from_seconds} + share * (double{range.to_seconds} - double{range.from_seconds}));
+            source.frame_at(static_cast<double>(range.from_seconds) + share * (static_cast<double>(range.to_seconds) - static_cast<double>(range.from_seconds)));
         if (!image) return image.error();
         if (sheet.bytes.empty()) {
             sheet.width = columns * image->width;
