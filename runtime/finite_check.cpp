@@ -7,8 +7,12 @@
 namespace blush {
 namespace {
 
-// A half float past its largest finite value (65504) is stored as infinity, so any finite value read back is in range.
 bool bad(float value) { return !std::isfinite(value); }
+
+// What exceeds a half float is stored as infinity or as its largest finite value, as the driver likes (GL 4.5, 2.3.4.1:
+// llvmpipe clamps), and no pass of ours writes that value on purpose (shaders/face.frag stays below it).
+constexpr float largest_half = 65504;
+bool bad_half(float value) { return bad(value) || std::abs(value) >= largest_half; }
 
 }  // namespace
 
@@ -80,7 +84,7 @@ std::optional<NotFinite> FiniteCheck::scan_texture(const FrameResource& resource
     if (!depth) glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, width, height, depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, values_.data());
     for (std::size_t i = 0; i < values_.size(); ++i) {
-        if (!bad(values_[i])) continue;
+        if (shape.format == PixelFormat::rgba16f ? !bad_half(values_[i]) : !bad(values_[i])) continue;
         const std::size_t pixel = i / channels;
         // GL counts rows from the bottom; a picture's reader counts from the top.
         return NotFinite{{},

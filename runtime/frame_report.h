@@ -36,7 +36,7 @@ struct PassReport {
 /// The first value that --check-finite found.
 struct NotFinite {
     std::string pass, resource, place;  ///< place: "pixel (12, 40) channel 0" or "vertex 311 component 2"
-    float value = 0;                    ///< NaN, an infinity, or beyond the format
+    float value = 0;                    ///< NaN, an infinity, or what a format that clamps made of a value beyond it
 
     std::string sentence() const;
 };

@@ -3,10 +3,10 @@
 namespace blush::gl {
 namespace {
 
-constexpr std::array<GLenum, 4> pack_names = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
-                                              GL_PACK_SKIP_PIXELS};
-constexpr std::array<GLenum, 4> unpack_names = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
-                                                GL_UNPACK_SKIP_PIXELS};
+constexpr std::array<GLenum, 5> pack_names = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
+                                              GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES};
+constexpr std::array<GLenum, 5> unpack_names = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
+                                                GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES};
 constexpr std::array<GLenum, 6> blend_names = {GL_BLEND_SRC_RGB,   GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,
                                                GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
 
@@ -14,6 +14,14 @@ GLint integer(GLenum name) {
     GLint value = 0;
     glGetIntegerv(name, &value);
     return value;
+}
+
+void set_indexed(GLenum name, GLuint index, GLboolean on) {
+    if (on != GL_FALSE) {
+        glEnablei(name, index);
+    } else {
+        glDisablei(name, index);
+    }
 }
 
 void set(GLenum name, GLboolean on) {
@@ -72,23 +80,33 @@ StateGuard::StateGuard() {
     draw_framebuffer_ = integer(GL_DRAW_FRAMEBUFFER_BINDING);
     read_framebuffer_ = integer(GL_READ_FRAMEBUFFER_BINDING);
     feedback_ = integer(GL_TRANSFORM_FEEDBACK_BINDING);
-    glGetIntegerv(GL_VIEWPORT, viewport_.data());
+    for (GLuint i = 0; i < viewports; ++i) {
+        glGetFloati_v(GL_VIEWPORT, i, viewports_[i].box.data());
+        glGetDoublei_v(GL_DEPTH_RANGE, i, viewports_[i].depth_range.data());
+        viewports_[i].scissored = glIsEnabledi(GL_SCISSOR_TEST, i);
+    }
+    for (GLuint i = 0; i < draw_buffers; ++i) {
+        DrawBuffer& buffer = draw_buffers_[i];
+        buffer.blended = glIsEnabledi(GL_BLEND, i);
+        for (std::size_t k = 0; k < blend_names.size(); ++k) glGetIntegeri_v(blend_names[k], i, &buffer.blend[k]);
+        glGetBooleani_v(GL_COLOR_WRITEMASK, i, buffer.color_mask.data());
+    }
     for (std::size_t i = 0; i < pack_names.size(); ++i) {
         pack_[i] = integer(pack_names[i]);
         unpack_[i] = integer(unpack_names[i]);
     }
-    for (std::size_t i = 0; i < blend_names.size(); ++i) blend_[i] = integer(blend_names[i]);
     clip_control_ = {integer(GL_CLIP_ORIGIN), integer(GL_CLIP_DEPTH_MODE)};
     glGetIntegerv(GL_POLYGON_MODE, polygon_mode_.data());
     depth_function_ = integer(GL_DEPTH_FUNC);
     cull_face_ = integer(GL_CULL_FACE_MODE);
     front_face_ = integer(GL_FRONT_FACE);
-    glGetBooleanv(GL_COLOR_WRITEMASK, color_mask_.data());
+    clamp_read_ = integer(GL_CLAMP_READ_COLOR);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
-    glGetDoublev(GL_DEPTH_RANGE, depth_range_.data());
 
     // The state that every pass starts from.
     for (const GLenum name : switches) glDisable(name);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
     glEnable(GL_MULTISAMPLE);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -104,6 +122,7 @@ StateGuard::StateGuard() {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
     glDepthRange(0, 1);
+    glClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);
     for (GLuint unit = 0; unit < texture_units; ++unit) glBindSampler(unit, 0);
 }
 
@@ -126,21 +145,29 @@ StateGuard::~StateGuard() {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name_of(draw_framebuffer_));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, name_of(read_framebuffer_));
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, name_of(feedback_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+    for (GLuint i = 0; i < viewports; ++i) {
+        glViewportIndexedfv(i, viewports_[i].box.data());
+        glDepthRangeIndexed(i, viewports_[i].depth_range[0], viewports_[i].depth_range[1]);
+        set_indexed(GL_SCISSOR_TEST, i, viewports_[i].scissored);
+    }
+    for (GLuint i = 0; i < draw_buffers; ++i) {
+        const auto& [blended, blend, mask] = draw_buffers_[i];
+        set_indexed(GL_BLEND, i, blended);
+        glBlendFuncSeparatei(i, enum_of(blend[0]), enum_of(blend[1]), enum_of(blend[2]), enum_of(blend[3]));
+        glBlendEquationSeparatei(i, enum_of(blend[4]), enum_of(blend[5]));
+        glColorMaski(i, mask[0], mask[1], mask[2], mask[3]);
+    }
     for (std::size_t i = 0; i < pack_names.size(); ++i) {
         glPixelStorei(pack_names[i], pack_[i]);
         glPixelStorei(unpack_names[i], unpack_[i]);
     }
-    glBlendFuncSeparate(enum_of(blend_[0]), enum_of(blend_[1]), enum_of(blend_[2]), enum_of(blend_[3]));
-    glBlendEquationSeparate(enum_of(blend_[4]), enum_of(blend_[5]));
     glClipControl(enum_of(clip_control_[0]), enum_of(clip_control_[1]));
     glPolygonMode(GL_FRONT_AND_BACK, enum_of(polygon_mode_[0]));
     glDepthFunc(enum_of(depth_function_));
     glCullFace(enum_of(cull_face_));
     glFrontFace(enum_of(front_face_));
-    glColorMask(color_mask_[0], color_mask_[1], color_mask_[2], color_mask_[3]);
     glDepthMask(depth_mask_);
-    glDepthRange(depth_range_[0], depth_range_[1]);
+    glClampColor(GL_CLAMP_READ_COLOR, enum_of(clamp_read_));
 }
 
 }  // namespace blush::gl

@@ -15,15 +15,40 @@ public:
     StateGuard& operator=(const StateGuard&) = delete;
 
     static constexpr std::size_t texture_units = 5, uniform_bindings = 3, storage_bindings = 6;
-    static constexpr std::array<GLenum, 14> switches = {
-        GL_BLEND,           GL_CULL_FACE,   GL_DEPTH_TEST,        GL_STENCIL_TEST,      GL_SCISSOR_TEST,
-        GL_RASTERIZER_DISCARD, GL_MULTISAMPLE, GL_FRAMEBUFFER_SRGB, GL_PRIMITIVE_RESTART, GL_DEPTH_CLAMP,
-        GL_COLOR_LOGIC_OP,  GL_SAMPLE_ALPHA_TO_COVERAGE, GL_POLYGON_OFFSET_FILL, GL_SAMPLE_MASK};
+    /// The least that GL 4.5 guarantees (table 23.55 and 23.65), and what Mesa, NVIDIA and AMD have: glViewport and its
+    /// kind write them all at once.
+    static constexpr std::size_t viewports = 16, draw_buffers = 8;
+    /// All are off in every pass but multisampling, and what a pass itself switches on and off.
+    static constexpr std::array<GLenum, 30> switches = {GL_CULL_FACE,           GL_DEPTH_TEST,
+                                                        GL_STENCIL_TEST,        GL_RASTERIZER_DISCARD,
+                                                        GL_MULTISAMPLE,         GL_FRAMEBUFFER_SRGB,
+                                                        GL_PRIMITIVE_RESTART,   GL_PRIMITIVE_RESTART_FIXED_INDEX,
+                                                        GL_DEPTH_CLAMP,         GL_DITHER,
+                                                        GL_COLOR_LOGIC_OP,      GL_LINE_SMOOTH,
+                                                        GL_POLYGON_SMOOTH,      GL_POLYGON_OFFSET_FILL,
+                                                        GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT,
+                                                        GL_PROGRAM_POINT_SIZE,  GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                                        GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE,
+                                                        GL_SAMPLE_MASK,         GL_SAMPLE_SHADING,
+                                                        GL_CLIP_DISTANCE0,      GL_CLIP_DISTANCE1,
+                                                        GL_CLIP_DISTANCE2,      GL_CLIP_DISTANCE3,
+                                                        GL_CLIP_DISTANCE4,      GL_CLIP_DISTANCE5,
+                                                        GL_CLIP_DISTANCE6,      GL_CLIP_DISTANCE7};
 
 private:
     struct Binding {
         GLint name = 0;
         GLint64 offset = 0, bytes = 0;
+    };
+    struct Viewport {
+        std::array<GLfloat, 4> box{};
+        std::array<GLdouble, 2> depth_range{};
+        GLboolean scissored = GL_FALSE;
+    };
+    struct DrawBuffer {
+        GLboolean blended = GL_FALSE;
+        std::array<GLint, 6> blend{};
+        std::array<GLboolean, 4> color_mask{};
     };
     static Binding indexed_binding(GLenum binding, GLenum start, GLenum size, GLuint index);
     static void restore(GLenum target, GLuint index, const Binding& binding);
@@ -32,15 +57,15 @@ private:
     std::array<GLint, texture_units> textures_{}, samplers_{};
     std::array<Binding, uniform_bindings> uniform_blocks_{};
     std::array<Binding, storage_bindings> storage_blocks_{};
-    GLint active_unit_ = 0, program_ = 0, vertex_array_ = 0, draw_framebuffer_ = 0, read_framebuffer_ = 0, feedback_ = 0;
+    GLint active_unit_ = 0, program_ = 0, vertex_array_ = 0, draw_framebuffer_ = 0, read_framebuffer_ = 0,
+          feedback_ = 0;
     GLint uniform_buffer_ = 0, storage_buffer_ = 0, pack_buffer_ = 0, unpack_buffer_ = 0;
-    std::array<GLint, 4> viewport_{}, pack_{}, unpack_{};
+    std::array<Viewport, viewports> viewports_{};
+    std::array<DrawBuffer, draw_buffers> draw_buffers_{};
+    std::array<GLint, 5> pack_{}, unpack_{};
     std::array<GLint, 2> clip_control_{}, polygon_mode_{};
-    GLint depth_function_ = 0, cull_face_ = 0, front_face_ = 0;
-    std::array<GLint, 6> blend_{};
-    std::array<GLboolean, 4> color_mask_{};
+    GLint depth_function_ = 0, cull_face_ = 0, front_face_ = 0, clamp_read_ = 0;
     GLboolean depth_mask_ = GL_TRUE;
-    std::array<GLdouble, 2> depth_range_{};
 };
 
 }  // namespace blush::gl

@@ -1,0 +1,21 @@
+cmake_minimum_required(VERSION 3.25)
+# cmake -DROOT=... "-DHEADERS=a.h;b.h" "-DPUBLIC=..." -P check_includes.cmake
+# A public header includes the standard library, GLM and other public headers; nothing that an engine would have to have.
+# Includes that climb through private headers are caught too: a private header is not in PUBLIC.
+set(faults 0)
+foreach(header IN LISTS HEADERS)
+  file(STRINGS ${ROOT}/${header} lines REGEX "^[ \t]*#[ \t]*include")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]*)[>\"].*" "\\1" included "${line}")
+    if(included MATCHES "^glm/" OR included MATCHES "^[a-z_0-9]+$" OR included IN_LIST PUBLIC)
+      continue()
+    endif()
+    message(SEND_ERROR "${header} includes ${included}, which is neither public nor standard nor GLM")
+    math(EXPR faults "${faults} + 1")
+  endforeach()
+endforeach()
+list(LENGTH HEADERS count)
+message(STATUS "${count} headers, ${faults} faults")
+if(count LESS 1)
+  message(FATAL_ERROR "no header was checked")
+endif()
