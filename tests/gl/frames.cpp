@@ -241,7 +241,8 @@ TEST_F(Frames, DisplayOutputIsTheCurveOfTheLinearOutput) {
         double worst = 0;
         for (std::size_t i = 0; i < shown.bytes.size(); ++i) {
             if (i % 4 == 3) continue;
-            const double expected = display_from_radiance(double{radiance.floats[i]}, double{exposure});
+            const double expected =
+                display_from_radiance(static_cast<double>(radiance.floats[i]), static_cast<double>(exposure));
             worst = std::max(worst, std::abs(shown.bytes[i] / 255.0 - expected));
         }
         EXPECT_LE(worst, 1.0 / 255) << "exposure " << exposure;
