@@ -183,7 +183,7 @@ TEST(FirstLight, IsWhatItSaysItIs) {
         load_performance(std::filesystem::path(BLUSH_SOURCE_DIR) / "assets/performances/first_light.json");
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_THAT(loaded->notes, IsEmpty());
-    EXPECT_EQ(loaded->duration_seconds, 9.5F);
+    EXPECT_EQ(loaded->duration_seconds, 12.0F);
     const std::vector<std::string> shapes(arkit_names.begin(), arkit_names.end());
     const auto curve = [&](std::string_view name) -> const Track& {
         const auto found = std::find_if(loaded->channels.begin(), loaded->channels.end(),
@@ -195,12 +195,12 @@ TEST(FirstLight, IsWhatItSaysItIs) {
         const bool is_angle = !find_name(channel.name, shapes);
         const float low = is_angle ? -0.25F : 0, high = is_angle ? 0.25F : 1;
         float most = 0;
-        for (float time = 0; time <= 9.5F; time += 1.0F / 120) {
+        for (float time = 0; time <= 12; time += 1.0F / 120) {
             const float value = value_at(channel.track, time);
             ASSERT_GE(value, low) << channel.name << " at " << time;
             ASSERT_LE(value, high) << channel.name << " at " << time;
             if (channel.name.starts_with("head")) {
-                ASSERT_LE(std::abs(value), 0.15F) << channel.name << " at " << time;
+                ASSERT_LE(std::abs(value), 0.2F) << channel.name << " at " << time;
             }
             most = std::max(most, std::abs(value));
         }
@@ -208,7 +208,7 @@ TEST(FirstLight, IsWhatItSaysItIs) {
     }
     // The eyes turn as their lids and the skin around them say: the scale is that of real recordings, 0.6 radians of
     // yaw and 0.55 of pitch for a shape of 1.
-    for (float time = 0; time <= 9.5F; time += 1.0F / 120) {
+    for (float time = 0; time <= 12; time += 1.0F / 120) {
         const auto at = [&](std::string_view name) { return value_at(curve(name), time); };
         ASSERT_NEAR(at("leftEyeYaw"), 0.6F * (at("eyeLookOutLeft") - at("eyeLookInLeft")), 1e-3F) << time;
         ASSERT_NEAR(at("rightEyeYaw"), 0.6F * (at("eyeLookInRight") - at("eyeLookOutRight")), 1e-3F) << time;
