@@ -47,10 +47,10 @@ struct SparseBlock {
 struct SparseBlocks {
     explicit SparseBlocks(const Face& face);
 
-    std::vector<SparseBlock> blocks;           ///< by target, then ascending by block
-    std::vector<std::uint32_t> first_block;    ///< of each target, and one past the last: targets + 1 entries
-    std::vector<std::uint32_t> first_delta;    ///< of each target, and one past the last: targets + 1 entries
-    std::uint32_t block_count = 0;             ///< runs of 32 that cover the face
+    std::vector<SparseBlock> blocks;         ///< by target, then ascending by block
+    std::vector<std::uint32_t> first_block;  ///< of each target, and one past the last: targets + 1 entries
+    std::vector<std::uint32_t> first_delta;  ///< of each target, and one past the last: targets + 1 entries
+    std::uint32_t block_count = 0;           ///< runs of 32 that cover the face
 };
 
 /// One active target in one run of vertices, as the stream-out shader reads it.

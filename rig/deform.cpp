@@ -47,7 +47,8 @@ void skin(std::span<const glm::u16vec4> joints, std::span<const glm::vec4> joint
         positions[v] = glm::vec3(blended * glm::vec4(positions[v], 1));
         const glm::mat3 turn(blended);
         normals[v] = normalized_or(turn * normals[v], normals[v]);
-        tangents[v] = orthogonal_tangent(glm::vec4(turn * glm::vec3(tangents[v]), tangents[v].w), normals[v], tangents[v]);
+        tangents[v] =
+            orthogonal_tangent(glm::vec4(turn * glm::vec3(tangents[v]), tangents[v].w), normals[v], tangents[v]);
     }
 }
 

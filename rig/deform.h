@@ -1,6 +1,6 @@
 #pragma once
-/// Deformation on the CPU: the whole of what stream-out does, as plain loops. Reference of the GPU path, and the path of
-/// tools that have no GL.
+/// Deformation on the CPU: the whole of what stream-out does, as plain loops. Reference of the GPU path, and the path
+/// of tools that have no GL.
 
 #include <span>
 #include <vector>
@@ -23,8 +23,8 @@ public:
     /// Keeps a reference to `face`, which must outlive it. Builds the topology that the normals need.
     explicit Deformer(const Face& face) : face_(face), topology_(face) {}
 
-    /// weights: one for each target, any float (not finite counts as 0). Writes `out`, which allocates on first use only.
-    /// All weights zero give the rest attributes bit for bit.
+    /// weights: one for each target, any float (not finite counts as 0). Writes `out`, which allocates on first use
+    /// only. All weights zero give the rest attributes bit for bit.
     void deform(std::span<const float> weights, NormalMethod method, DeformedSurface& out);
 
     const NormalTopology& topology() const { return topology_; }

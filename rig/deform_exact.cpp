@@ -7,7 +7,8 @@
 namespace blush {
 namespace {
 
-glm::dvec3 angle_weighted(const NormalTopology& topology, const std::vector<glm::dvec3>& positions, std::size_t vertex) {
+glm::dvec3 angle_weighted(const NormalTopology& topology, const std::vector<glm::dvec3>& positions,
+                          std::size_t vertex) {
     glm::dvec3 sum(0);
     for (std::uint32_t i = topology.first_triangle[vertex]; i < topology.first_triangle[vertex + 1]; ++i) {
         const glm::uvec3 triangle = topology.triangles[i];
@@ -46,7 +47,8 @@ ExactSurface deform_exact(const Face& face, std::span<const float> weights) {
         if (weights[t] == 0) continue;
         const Target& target = face.targets[t];
         for (std::size_t i = 0; i < target.vertices.size(); ++i) {
-            surface.positions[target.vertices[i]] += static_cast<double>(weights[t]) * glm::dvec3(target.position_deltas[i]);
+            surface.positions[target.vertices[i]] +=
+                static_cast<double>(weights[t]) * glm::dvec3(target.position_deltas[i]);
         }
     }
 

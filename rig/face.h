@@ -22,11 +22,11 @@ namespace blush {
 /// Targets of one name in several meshes are one Target.
 struct Target {
     std::string name;
-    std::vector<std::uint32_t> vertices;      ///< face vertex indices, strictly ascending
-    std::vector<glm::vec3> position_deltas;   ///< mesh units, one for each of `vertices`
-    std::vector<glm::vec3> normal_deltas;     ///< one for each of `vertices` (zero where the file has none), or empty
-    std::vector<glm::vec3> tangent_deltas;    ///< one for each of `vertices` (zero where the file has none), or empty
-    float default_weight = 0;                 ///< the file's own initial weight, any finite value
+    std::vector<std::uint32_t> vertices;     ///< face vertex indices, strictly ascending
+    std::vector<glm::vec3> position_deltas;  ///< mesh units, one for each of `vertices`
+    std::vector<glm::vec3> normal_deltas;    ///< one for each of `vertices` (zero where the file has none), or empty
+    std::vector<glm::vec3> tangent_deltas;   ///< one for each of `vertices` (zero where the file has none), or empty
+    float default_weight = 0;                ///< the file's own initial weight, any finite value
 };
 
 /// Where the shading normal of a primitive's vertices comes from once targets move them.
@@ -69,8 +69,8 @@ struct Node {
 };
 
 struct Skin {
-    std::vector<std::uint32_t> joints;           ///< node indices
-    std::vector<glm::mat4> joint_from_mesh;      ///< inverse bind matrices, one a joint
+    std::vector<std::uint32_t> joints;       ///< node indices
+    std::vector<glm::mat4> joint_from_mesh;  ///< inverse bind matrices, one a joint
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
@@ -142,8 +142,8 @@ struct Face {
     std::vector<glm::vec2> uv0, uv1;   ///< (0, 0) where the file has none
 
     // One an entry a vertex if any mesh is skinned, else empty.
-    std::vector<glm::u16vec4> joints;     ///< indices into Skin::joints
-    std::vector<glm::vec4> joint_weights; ///< sum 1 (all zero: the vertex is not skinned)
+    std::vector<glm::u16vec4> joints;      ///< indices into Skin::joints
+    std::vector<glm::vec4> joint_weights;  ///< sum 1 (all zero: the vertex is not skinned)
 
     std::vector<std::uint32_t> indices;  ///< face vertex indices
     std::vector<Primitive> primitives;

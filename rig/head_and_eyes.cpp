@@ -35,8 +35,8 @@ bool still(const Angles& angles) {
 void turn(glm::mat4& world_from_node, const Pivot& pivot, const Angles& angles) {
     if (still(angles)) return;
     const auto centre = glm::vec3(world_from_node * glm::vec4(pivot.point_node, 1));
-    world_from_node = glm::translate(glm::mat4(1), centre) * turn_of(angles) *
-                      glm::translate(glm::mat4(1), -centre) * world_from_node;
+    world_from_node = glm::translate(glm::mat4(1), centre) * turn_of(angles) * glm::translate(glm::mat4(1), -centre) *
+                      world_from_node;
 }
 
 /// For each node the nodes of its subtree that draw something; nodes are ordered parents first.
@@ -82,8 +82,8 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
     HeadAndEyes found;
     const auto below = drawing_nodes_below(face);
     const std::vector<glm::mat4> world = rest_world(face);
-    const auto drawn = static_cast<std::size_t>(
-        std::ranges::count_if(face.nodes, [](const Node& node) { return node.mesh >= 0; }));
+    const auto drawn =
+        static_cast<std::size_t>(std::ranges::count_if(face.nodes, [](const Node& node) { return node.mesh >= 0; }));
     const auto bounds_in = [&](std::size_t root) {
         const glm::mat4 node_from_world = glm::inverse(world[root]);
         Bounds bounds;
@@ -100,7 +100,8 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
         for (const std::uint32_t d : below[n]) add_mesh(face, face.nodes[d].mesh, world[d], bounds);
         constexpr float neck_height = 1.0F / 3;
         const glm::vec3 point(bounds.centre().x, bounds.low.y + neck_height * bounds.size().y, bounds.centre().z);
-        found.head = {static_cast<std::int32_t>(n), finite_or_origin(glm::vec3(glm::inverse(world[n]) * glm::vec4(point, 1)))};
+        found.head = {static_cast<std::int32_t>(n),
+                      finite_or_origin(glm::vec3(glm::inverse(world[n]) * glm::vec4(point, 1)))};
     }
 
     const auto find_eye = [&](std::string_view side) {
@@ -109,9 +110,10 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
             const std::string name = canonical_name(face.nodes[n].name);
             if (!name.ends_with(wanted) || below[n].empty() || below[n].size() == drawn) continue;
             const Bounds bounds = bounds_in(n);
-            const bool origin_inside =
-                glm::all(glm::lessThan(bounds.low, glm::vec3(0))) && glm::all(glm::greaterThan(bounds.high, glm::vec3(0)));
-            return Pivot{static_cast<std::int32_t>(n), origin_inside ? glm::vec3(0) : finite_or_origin(bounds.centre())};
+            const bool origin_inside = glm::all(glm::lessThan(bounds.low, glm::vec3(0))) &&
+                                       glm::all(glm::greaterThan(bounds.high, glm::vec3(0)));
+            return Pivot{static_cast<std::int32_t>(n),
+                         origin_inside ? glm::vec3(0) : finite_or_origin(bounds.centre())};
         }
         return Pivot{};
     };
@@ -141,7 +143,8 @@ void world_from_nodes(const Face& face, const Pose& pose, const HeadAndEyes& piv
 void skinned_from_meshes(const Face& face, std::span<const glm::mat4> world, std::span<glm::mat4> joints) {
     std::size_t at = 0;
     for (const Skin& skin : face.skins) {
-        for (std::size_t j = 0; j < skin.joints.size(); ++j) joints[at++] = world[skin.joints[j]] * skin.joint_from_mesh[j];
+        for (std::size_t j = 0; j < skin.joints.size(); ++j)
+            joints[at++] = world[skin.joints[j]] * skin.joint_from_mesh[j];
     }
 }
 
@@ -156,7 +159,8 @@ Bounds moving_bounds(const Face& face) {
     }
     std::vector<std::int32_t> node_of_vertex(face.positions.size(), -1);
     for (const Primitive& primitive : face.primitives) {
-        std::fill_n(node_of_vertex.begin() + primitive.first_vertex, primitive.vertex_count, node_of_mesh[primitive.mesh]);
+        std::fill_n(node_of_vertex.begin() + primitive.first_vertex, primitive.vertex_count,
+                    node_of_mesh[primitive.mesh]);
     }
     for (const Target& target : face.targets) {
         for (std::size_t i = 0; i < target.vertices.size(); ++i) {

@@ -12,8 +12,8 @@ namespace blush {
 
 /// A node that angles turn about a point.
 struct Pivot {
-    std::int32_t node = -1;     ///< -1: the face has none
-    glm::vec3 point_node{0};    ///< in the node's own space, at rest
+    std::int32_t node = -1;   ///< -1: the face has none
+    glm::vec3 point_node{0};  ///< in the node's own space, at rest
 };
 
 struct HeadAndEyes {
@@ -24,7 +24,8 @@ struct HeadAndEyes {
 /// Finds them by the nodes' names ("eyeLeft", "Eye_L", "grp_eyeRight", ...). An eye turns about its node's origin where
 /// that lies inside the eye's bounds, else about their centre. Of two eyes, the left one is that on the face's own left
 /// (+X): some files name their nodes as the viewer sees them and their targets as the face does. The head turns
-/// about the point in the middle of its bounds from side to side and a third of the way up (where the neck carries a head that is modelled down to its neck).
+/// about the point in the middle of its bounds from side to side and a third of the way up (where the neck carries a
+/// head that is modelled down to its neck).
 HeadAndEyes find_head_and_eyes(const Face& face);
 
 /// world_from_node of every node, parents first. `world` has one entry a node. No allocation.
@@ -45,8 +46,8 @@ struct Bounds {
     }
 };
 
-/// Bounds in the world of everything that the nodes draw, at rest and with each target alone at weight 1: where the face
-/// can be expected to go.
+/// Bounds in the world of everything that the nodes draw, at rest and with each target alone at weight 1: where the
+/// face can be expected to go.
 Bounds moving_bounds(const Face& face);
 
 }  // namespace blush

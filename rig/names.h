@@ -20,7 +20,8 @@ extern const std::array<std::string_view, 52> arkit_names;
 /// right) becomes one form. Names that are not ARKit's are folded the same way.
 std::string canonical_name(std::string_view name);
 
-/// A list of names prepared for many look-ups by find_name()'s rule: as many steps to build as there are names, one to find.
+/// A list of names prepared for many look-ups by find_name()'s rule: as many steps to build as there are names, one to
+/// find.
 class NameIndex {
 public:
     NameIndex() = default;

@@ -24,12 +24,13 @@ struct Performance {
     float duration_seconds = 0;  ///< time of the last key; 0 for a still
     std::vector<PerformanceChannel> channels;
     std::vector<NodeChannel> nodes;  ///< glTF only: indices into Face::nodes of the face that it came from
-    std::vector<std::string> notes;  ///< what the reader skipped or mended ("3 dropped frames after row 120"), one sentence each
+    std::vector<std::string>
+        notes;  ///< what the reader skipped or mended ("3 dropped frames after row 120"), one sentence each
 };
 
-/// Takes one of the face's own animations, or all of them at once when `index` is empty, as a performance: one channel a
-/// target, named after it. What several animations move takes the last one's track, with a note. An index that the face
-/// does not have gives a performance without channels and a note.
+/// Takes one of the face's own animations, or all of them at once when `index` is empty, as a performance: one channel
+/// a target, named after it. What several animations move takes the last one's track, with a note. An index that the
+/// face does not have gives a performance without channels and a note.
 Performance performance_from_animations(const Face& face, std::optional<std::size_t> index);
 
 /// A performance whose names have been resolved against a rig, once.

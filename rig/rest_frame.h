@@ -12,10 +12,10 @@ namespace blush {
 /// A unit vector at right angles to `unit`. Never fails: a zero or non-finite `unit` gives (1, 0, 0).
 glm::vec3 any_perpendicular(glm::vec3 unit);
 
-/// Smooth vertex normals: the sum of the normals of the triangles around a vertex, each weighted by its angle there (as in
-/// rig/surface_normals.h), where vertices at the same position count as one vertex (file formats split vertices at texture seams). Unit length always; a vertex that
-/// no triangle of positive area touches gets (0, 0, 1). `triangles`: three indices into `positions` a triangle,
-/// counter-clockwise seen from outside.
+/// Smooth vertex normals: the sum of the normals of the triangles around a vertex, each weighted by its angle there (as
+/// in rig/surface_normals.h), where vertices at the same position count as one vertex (file formats split vertices at
+/// texture seams). Unit length always; a vertex that no triangle of positive area touches gets (0, 0, 1). `triangles`:
+/// three indices into `positions` a triangle, counter-clockwise seen from outside.
 std::vector<glm::vec3> smooth_normals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles);
 
 /// Tangents for normal maps: xyz is the direction in which u grows on the surface (area-weighted over the triangles

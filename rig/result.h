@@ -1,8 +1,8 @@
 #pragma once
 /// Result<T>: a value, or one sentence that says what is wrong with the caller's data.
 ///
-/// Stands in for std::expected, which g++ 12 does not have. An Error's message names the file, the place in the file and
-/// the reason; it is written for the person who typed the command.
+/// Stands in for std::expected, which g++ 12 does not have. An Error's message names the file, the place in the file
+/// and the reason; it is written for the person who typed the command.
 
 #include <cassert>
 #include <string>

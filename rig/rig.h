@@ -18,15 +18,17 @@ enum class ControlId : std::uint32_t {};
 
 /// Angles of the head or of one eye, as Live Link Face records them.
 struct Angles {
-    float yaw_radians = 0;    ///< about world +Y; positive turns to the face's own left (+X for a glTF face, which looks along +Z)
+    float yaw_radians =
+        0;  ///< about world +Y; positive turns to the face's own left (+X for a glTF face, which looks along +Z)
     float pitch_radians = 0;  ///< about world +X; positive looks down
     float roll_radians = 0;   ///< about world +Z; positive tilts the top of the head to the face's own right (-X)
 };
 
-/// Everything that a frame needs to know of what the face does. Geometry, and later wrinkles and colour, read this alone.
+/// Everything that a frame needs to know of what the face does. Geometry, and later wrinkles and colour, read this
+/// alone.
 struct Pose {
-    std::vector<float> weights;     ///< one for each of Face::targets, finite
-    std::vector<Transform> nodes;   ///< parent_from_node of each of Face::nodes (ignored where the node has a matrix)
+    std::vector<float> weights;    ///< one for each of Face::targets, finite
+    std::vector<Transform> nodes;  ///< parent_from_node of each of Face::nodes (ignored where the node has a matrix)
     Angles head, left_eye, right_eye;
 };
 
@@ -51,7 +53,8 @@ public:
     Pose rest_pose() const;
 
     /// controls: one value for each control. A value that is not finite counts as 0 (rule: the face rests rather than
-    /// breaks); a weight beyond +-largest_weight counts as that. Writes weights and angles of `pose`, leaves its nodes as they are. No allocation, no hidden state.
+    /// breaks); a weight beyond +-largest_weight counts as that. Writes weights and angles of `pose`, leaves its nodes
+    /// as they are. No allocation, no hidden state.
     void evaluate(std::span<const float> controls, Pose& pose) const;
 
 private:

@@ -18,9 +18,9 @@ constexpr float half_turn = 1.5e-6F;
 
 float dot3(glm::vec3 a, glm::vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Angle between two unit vectors from the length of their cross product and their dot product, 0 to pi. The arc tangent
-/// by Abramowitz and Stegun 4.4.47 (within 1e-5 radians): a weight needs no more, and unlike the library's it is made of
-/// operations that round the same on CPU and GPU.
+/// Angle between two unit vectors from the length of their cross product and their dot product, 0 to pi. The arc
+/// tangent by Abramowitz and Stegun 4.4.47 (within 1e-5 radians): a weight needs no more, and unlike the library's it
+/// is made of operations that round the same on CPU and GPU.
 float angle_of(float sine, float cosine) {
     const float size = std::abs(cosine);
     const bool steep = sine > size;
@@ -98,7 +98,7 @@ NormalTopology::NormalTopology(const Face& face) {
 }
 
 glm::vec3 angle_weighted_normal(const NormalTopology& topology, std::span<const glm::vec3> positions,
-                               std::uint32_t vertex) {
+                                std::uint32_t vertex) {
     glm::vec3 sum(0);
     for (std::uint32_t i = topology.first_triangle[vertex]; i < topology.first_triangle[vertex + 1]; ++i) {
         const glm::uvec3 triangle = topology.triangles[i];

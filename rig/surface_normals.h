@@ -3,8 +3,9 @@
 ///
 /// A normal that targets carry themselves is normalised after the sum. Every other normal turns with the surface: the
 /// angle-weighted normal of the triangles around the vertex (Thuermer and Wuethrich 1998) is taken at rest and after
-/// deformation, and the rotation from the one to the other (the shortest arc) is applied to the rest normal. So hard edges and the artist's own smoothing
-/// stay, a flat weight gives the rest normal bit for bit, and the normal is exact for rigid motion.
+/// deformation, and the rotation from the one to the other (the shortest arc) is applied to the rest normal. So hard
+/// edges and the artist's own smoothing stay, a flat weight gives the rest normal bit for bit, and the normal is exact
+/// for rigid motion.
 
 #include <cstdint>
 #include <span>
@@ -33,14 +34,15 @@ struct NormalTopology {
     std::vector<std::uint32_t> first_triangle;  ///< of each vertex, and one past the last: vertices + 1 entries
     /// The vertices (a, b, c) of each triangle around a vertex, starting with the vertex (or its copy across a seam).
     std::vector<glm::uvec3> triangles;
-    std::vector<glm::vec3> rest_sums;  ///< angle-weighted normal at rest, unnormalised; zero where no triangle has an area
+    std::vector<glm::vec3>
+        rest_sums;  ///< angle-weighted normal at rest, unnormalised; zero where no triangle has an area
 };
 
-/// Sum of the unit normals of the triangles around `vertex`, each times its angle (radians) at the vertex: a direction that
-/// does not depend on how the surface is cut into triangles. Triangles without an area or with an edge shorter than 1e-15
-/// add nothing.
+/// Sum of the unit normals of the triangles around `vertex`, each times its angle (radians) at the vertex: a direction
+/// that does not depend on how the surface is cut into triangles. Triangles without an area or with an edge shorter
+/// than 1e-15 add nothing.
 glm::vec3 angle_weighted_normal(const NormalTopology& topology, std::span<const glm::vec3> positions,
-                               std::uint32_t vertex);
+                                std::uint32_t vertex);
 
 /// The rest normal turned by the rotation that takes `rest_sum` to `deformed_sum` (neither need be normalised).
 /// Where either is too short to have a direction (below 1e-30 in any unit: a zero-area fan), the rest normal itself.

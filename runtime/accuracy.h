@@ -22,11 +22,11 @@ struct AccuracyOptions {
 struct MeasuredVariant {
     std::string label, work;
     bool is_default = false;
-    double error_mean = 0, error_worst = 0;  ///< in the study's unit
+    double error_mean = 0, error_worst = 0;         ///< in the study's unit
     double median_ms = 0, low_ms = 0, high_ms = 0;  ///< median and quartiles of the rounds
     double ratio_to_default = 1;  ///< median over the rounds of this variant's time / the default's in the same round
     double ratio_low = 1, ratio_high = 1;  ///< quartiles of that ratio
-    bool on_frontier = false;     ///< no other variant is both at least as fast and more exact
+    bool on_frontier = false;              ///< no other variant is both at least as fast and more exact
 };
 
 struct MeasuredStudy {

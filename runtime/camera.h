@@ -10,12 +10,12 @@ namespace blush {
 
 struct OrbitCamera {
     glm::vec3 target_world{0};
-    float distance = 1;           ///< above 0, world units
-    float yaw_radians = 0;        ///< 0 looks at the front of a glTF face; positive moves the camera to the face's left
-    float pitch_radians = 0;      ///< positive moves the camera up; clamped to +-1.5 (the poles have no up)
+    float distance = 1;       ///< above 0, world units
+    float yaw_radians = 0;    ///< 0 looks at the front of a glTF face; positive moves the camera to the face's left
+    float pitch_radians = 0;  ///< positive moves the camera up; clamped to +-1.5 (the poles have no up)
     /// 24 degrees: a portrait lens (about 85 mm on a 35 mm frame), which keeps the nose from growing.
     float vertical_field_of_view_radians = 0.42F;
-    float scene_radius = 1;       ///< world units; places the near and far planes
+    float scene_radius = 1;  ///< world units; places the near and far planes
 
     /// aspect: width / height.
     Camera camera(float aspect) const;

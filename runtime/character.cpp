@@ -67,9 +67,8 @@ Result<Character> Character::create(const Device& device, Face face) {
     state->pose = state->rig.rest_pose();
     state->head_and_eyes = find_head_and_eyes(state->face);
     state->bounds = moving_bounds(state->face);
-    state->target_needs_turned_normals = targets_that_move(state->face, [](const Primitive& primitive) {
-        return primitive.normal_source == NormalSource::recomputed;
-    });
+    state->target_needs_turned_normals = targets_that_move(
+        state->face, [](const Primitive& primitive) { return primitive.normal_source == NormalSource::recomputed; });
     state->target_moves_normals = targets_that_move(
         state->face, [](const Primitive& primitive) { return primitive.normal_source != NormalSource::rest; });
     state->world_from_node.resize(state->face.nodes.size());

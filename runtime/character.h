@@ -49,8 +49,8 @@ public:
     /// A camera that frames the face at rest. aspect: width / height.
     OrbitCamera framing(float aspect) const;
 
-    /// Draws one frame into view.framebuffer and restores every GL state that it touched. The report stands until the next
-    /// draw. A view without pixels draws nothing.
+    /// Draws one frame into view.framebuffer and restores every GL state that it touched. The report stands until the
+    /// next draw. A view without pixels draws nothing.
     const FrameReport& draw(const View& view);
 
     /// Deforms (on the GPU, without drawing) and reads back: mesh-local positions, normals, tangents of every vertex.

@@ -25,14 +25,14 @@ struct SceneFacts {
     std::uint32_t active_targets = 0;
     bool active_need_turned_normals = false;  ///< an active target moves a primitive whose normals turn
     bool any_turned_normals = false;          ///< some target of the face does
-    bool deformation_current = false;  ///< deformed() holds what these weights and settings give
+    bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
     bool forced = false;
 };
 
 /// Resources of the frame that passes hand on to one another.
 struct FrameResources {
-    ResourceId positions{}, normals{}, tangents{};  ///< the surface as far as it has come
+    ResourceId positions{}, normals{}, tangents{};                          ///< the surface as far as it has come
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{}, target{};
 };

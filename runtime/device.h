@@ -12,7 +12,7 @@ namespace blush {
 
 struct DeviceInfo {
     std::string renderer, version;
-    int largest_sample_count = 1;        ///< of a multisampled floating-point colour target
+    int largest_sample_count = 1;  ///< of a multisampled floating-point colour target
     int largest_texture_side_texels = 0;
     std::uint64_t largest_storage_block_bytes = 0;
 };
@@ -26,8 +26,9 @@ public:
     /// Error: no EGL, no surfaceless platform, or no OpenGL 4.5.
     static Result<Device> headless(bool debug = true);
 
-    /// Uses the context that is current on this thread, which must stay alive, and current whenever the library is called.
-    /// Error: no current context, or one below OpenGL 4.5. GL functions are found through libepoxy, by themselves.
+    /// Uses the context that is current on this thread, which must stay alive, and current whenever the library is
+    /// called. Error: no current context, or one below OpenGL 4.5. GL functions are found through libepoxy, by
+    /// themselves.
     static Result<Device> adopt_current();
 
     const DeviceInfo& info() const;

@@ -1,8 +1,8 @@
 #pragma once
-/// An effect is one thing with five faces, declared in one place: settings, the predicate that says whether a scene needs
-/// it, the passes that it adds, its slow exact twin, its hard cases. Nothing else in the house knows it by name: the frame
-/// walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard cases.
-/// docs/adding_an_effect.md is the checklist.
+/// An effect is one thing with five faces, declared in one place: settings, the predicate that says whether a scene
+/// needs it, the passes that it adds, its slow exact twin, its hard cases. Nothing else in the house knows it by name:
+/// the frame walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard
+/// cases. docs/adding_an_effect.md is the checklist.
 
 #include <functional>
 #include <memory>
@@ -40,13 +40,13 @@ struct Need {
 
 /// One way to compute something, to be compared with others: how long `run` takes, how far `error` says it is off.
 struct Variant {
-    std::string label;           ///< "deformation.method=sparse"
-    std::function<void()> run;   ///< complete when it returns
+    std::string label;          ///< "deformation.method=sparse"
+    std::function<void()> run;  ///< complete when it returns
     struct Error {
         double mean = 0, worst = 0;  ///< in the study's unit
     };
     std::function<Error()> error;
-    std::string work;            ///< counted: "52 targets, 14 passes, 1.4 M deltas"
+    std::string work;  ///< counted: "52 targets, 14 passes, 1.4 M deltas"
     bool is_default = false;
 };
 

@@ -67,7 +67,7 @@ std::array<const TextureUse*, 5> textures_of(const Material& m) {
 }
 
 constexpr std::array<std::string_view, 5> texture_defines = {"BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP",
-                                                              "OCCLUSION_MAP", "EMISSIVE_MAP"};
+                                                             "OCCLUSION_MAP", "EMISSIVE_MAP"};
 
 std::uint32_t permutation_of(const Material& material) {
     const auto uses = textures_of(material);

@@ -28,8 +28,9 @@ struct FaceModel {
     gl::Buffer indices, uv0, uv1;
 
     gl::Buffer frame_block;
-    gl::Buffer draw_blocks;      ///< shared::DrawBlock of each node and, last, the identity; draw_stride bytes apart
-    gl::Buffer material_blocks;  ///< shared::MaterialBlock of each material and, last, the default; material_stride apart
+    gl::Buffer draw_blocks;  ///< shared::DrawBlock of each node and, last, the identity; draw_stride bytes apart
+    gl::Buffer
+        material_blocks;  ///< shared::MaterialBlock of each material and, last, the default; material_stride apart
     std::size_t draw_stride = 0, material_stride = 0;
     std::vector<std::byte> draw_staging;
 

@@ -23,8 +23,7 @@ void find_facts(CharacterState& state, const View& view) {
         std::ranges::any_of(state.active, [&](const ActiveTarget& entry) { return needs[entry.target] != 0; });
 
     const bool same_settings = state.deformed_settings == state.settings;
-    state.facts.deformation_current =
-        state.deformed_valid && same_settings && state.active == state.deformed_active;
+    state.facts.deformation_current = state.deformed_valid && same_settings && state.active == state.deformed_active;
     state.normal_method = method;
 }
 
@@ -57,7 +56,8 @@ void run(CharacterState& state, const View& view) {
     };
     const auto after = [&state, &view](const FrameGraph& graph, const FramePass& pass) {
         if (view.timed) state.timers.stop();
-        if (view.check_finite && !state.report.not_finite) state.report.not_finite = state.finite_check.scan(graph, pass);
+        if (view.check_finite && !state.report.not_finite)
+            state.report.not_finite = state.finite_check.scan(graph, pass);
     };
     state.graph.execute(state.textures, before, after);
 
@@ -108,8 +108,8 @@ void draw_frame(CharacterState& state, const View& view) {
     state.resources.scene_color_multisampled = state.graph.texture("scene colour, multisampled", color);
     state.resources.scene_depth = state.graph.texture("scene depth", depth);
     color.samples = 1;
-    state.resources.scene_color = samples > 1 ? state.graph.texture("scene colour", color)
-                                              : state.resources.scene_color_multisampled;
+    state.resources.scene_color =
+        samples > 1 ? state.graph.texture("scene colour", color) : state.resources.scene_color_multisampled;
     state.resources.target = state.graph.import_framebuffer("view", view.framebuffer, color);
 
     declare_shade(state);

@@ -25,9 +25,9 @@ struct TextureShape {
 
 /// What a resource is, as far as a check of its contents needs to know.
 enum class ResourceKind : std::uint8_t {
-    texture,         ///< transient, made by the TextureSource
-    float_buffer,    ///< imported: an array of vertices of `components` floats
-    framebuffer,     ///< imported: what is presented to
+    texture,       ///< transient, made by the TextureSource
+    float_buffer,  ///< imported: an array of vertices of `components` floats
+    framebuffer,   ///< imported: what is presented to
 };
 
 enum class ResourceId : std::uint32_t {};
@@ -66,7 +66,8 @@ public:
 
     /// All names are kept as views: pass literals, or strings that outlive the frame.
     ResourceId texture(std::string_view name, const TextureShape& shape);
-    ResourceId import_buffer(std::string_view name, std::uint32_t handle, std::uint32_t components, std::uint32_t count);
+    ResourceId import_buffer(std::string_view name, std::uint32_t handle, std::uint32_t components,
+                             std::uint32_t count);
     ResourceId import_framebuffer(std::string_view name, std::uint32_t handle, const TextureShape& shape);
 
     /// Adds a pass; reads(), writes() and modifies() that follow are its. `run` must be small enough that std::function
@@ -116,7 +117,7 @@ private:
     std::vector<FramePass> passes_;
     std::vector<FrameResource> resources_;
     std::vector<Use> uses_;
-    std::vector<std::uint8_t> wanted_;     // of each resource: presented, or read by a live pass further on
+    std::vector<std::uint8_t> wanted_;  // of each resource: presented, or read by a live pass further on
     std::vector<ResourceId> presented_;
 };
 

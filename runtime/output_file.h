@@ -12,8 +12,10 @@
 namespace blush {
 
 /// Calls `write` with a name beside `path` (same folder and ending) and renames what it wrote over `path`. When `write`
-/// fails, what it left is removed and its error is returned. Error too: a folder that does not exist or is not writable.
-Status write_beside(const std::filesystem::path& path, const std::function<Status(const std::filesystem::path&)>& write);
+/// fails, what it left is removed and its error is returned. Error too: a folder that does not exist or is not
+/// writable.
+Status write_beside(const std::filesystem::path& path,
+                    const std::function<Status(const std::filesystem::path&)>& write);
 
 /// Writes text or bytes.
 Status write_file(const std::filesystem::path& path, std::string_view contents);

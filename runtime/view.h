@@ -22,12 +22,12 @@ struct View {
     std::uint32_t width = 0, height = 0;  ///< pixels, of the framebuffer
     std::uint32_t framebuffer = 0;        ///< GL name; 0: the default framebuffer
     Output output = Output::display_srgb;
-    float exposure = 1;                   ///< factor on radiance before the filmic curve
-    std::uint32_t samples = 4;            ///< of multisampling; clamped to what the device has
+    float exposure = 1;         ///< factor on radiance before the filmic curve
+    std::uint32_t samples = 4;  ///< of multisampling; clamped to what the device has
     glm::vec4 background_linear{0.035F, 0.037F, 0.042F, 1};
-    bool timed = false;         ///< measure each pass (FrameReport::passes)
-    bool check_finite = false;  ///< scan what each pass wrote (slow: reads it back)
-    bool force_effects = false; ///< run effects that could be left out, to show that leaving them out was right
+    bool timed = false;          ///< measure each pass (FrameReport::passes)
+    bool check_finite = false;   ///< scan what each pass wrote (slow: reads it back)
+    bool force_effects = false;  ///< run effects that could be left out, to show that leaving them out was right
 };
 
 }  // namespace blush

@@ -24,7 +24,7 @@ inline std::optional<std::filesystem::path> shared_data(const std::filesystem::p
 }  // namespace blush::test
 
 /// Skips the test with a message where the shared data is absent.
-#define BLUSH_SHARED_OR_SKIP(variable, relative)                                  \
-    const auto variable##_found = blush::test::shared_data(relative);             \
-    if (!variable##_found) GTEST_SKIP() << "shared data absent: " << (relative);  \
+#define BLUSH_SHARED_OR_SKIP(variable, relative)                                 \
+    const auto variable##_found = blush::test::shared_data(relative);            \
+    if (!variable##_found) GTEST_SKIP() << "shared data absent: " << (relative); \
     const std::filesystem::path variable = *variable##_found

@@ -55,7 +55,10 @@ Study study_of(const Device& device, const Face& face, double millimetres_a_unit
     std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
     Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
                     std::to_string(face.positions.size()) + " vertices",
-                "the sum in double precision on the CPU (rig/deform_exact.h)", "mm", {}, scene};
+                "the sum in double precision on the CPU (rig/deform_exact.h)",
+                "mm",
+                {},
+                scene};
     if (!scene) return study;
 
     const auto on_gpu = [&](std::uint8_t method) {
@@ -74,8 +77,9 @@ Study study_of(const Device& device, const Face& face, double millimetres_a_unit
         variant.work = work_of(scene->stream_out(), active);
         variant.error = [scene, method, millimetres_a_unit] {
             const Status chosen = scene->character.set("deformation.method", method_choices[method]);
-            return chosen ? distance_error<glm::dvec3>(scene->read().positions, scene->exact.positions, millimetres_a_unit)
-                          : Variant::Error{};
+            return chosen
+                       ? distance_error<glm::dvec3>(scene->read().positions, scene->exact.positions, millimetres_a_unit)
+                       : Variant::Error{};
         };
         study.variants.push_back(std::move(variant));
     };
@@ -117,8 +121,7 @@ void scale(Face& face, float factor) {
 }
 
 constexpr std::array<HardCase, 8> hard_cases = {{
-    {"weight that is not a number", "counts as zero: the rest surface", leave,
-     std::numeric_limits<float>::quiet_NaN()},
+    {"weight that is not a number", "counts as zero: the rest surface", leave, std::numeric_limits<float>::quiet_NaN()},
     {"infinite weight", "counts as zero: the rest surface", leave, std::numeric_limits<float>::infinity()},
     {"weight of 1e30", "limited: every value stays finite", leave, 1e30F},
     {"weight of -1", "the opposite move", leave, -1.0F},

@@ -18,15 +18,15 @@ Variant::Error distance_error(std::span<const glm::vec3> positions, std::span<co
                               double millimetres_a_unit) {
     Variant::Error error;
     for (std::size_t v = 0; v < positions.size(); ++v) {
-        const double distance =
-            glm::length(glm::dvec3(positions[v]) - glm::dvec3(exact[v])) * millimetres_a_unit;
+        const double distance = glm::length(glm::dvec3(positions[v]) - glm::dvec3(exact[v])) * millimetres_a_unit;
         error.mean += distance / static_cast<double>(positions.size());
         error.worst = std::max(error.worst, distance);
     }
     return error;
 }
 
-/// Angles between corresponding unit vectors, in degrees, by the arc tangent: the arc cosine loses half its digits near 0.
+/// Angles between corresponding unit vectors, in degrees, by the arc tangent: the arc cosine loses half its digits near
+/// 0.
 inline Variant::Error angle_error(std::span<const glm::vec3> normals, std::span<const glm::dvec3> exact) {
     Variant::Error error;
     for (std::size_t v = 0; v < normals.size(); ++v) {

@@ -12,7 +12,8 @@ namespace {
 constexpr std::array<std::string_view, 2> source_choices = {"authored", "recomputed"};
 constexpr std::array<Setting, 1> settings = {{
     {"source",
-     "authored: the targets' own NORMAL deltas where they have them, else turned with the deformed surface; recomputed: "
+     "authored: the targets' own NORMAL deltas where they have them, else turned with the deformed surface; "
+     "recomputed: "
      "turned with the deformed surface everywhere",
      source_choices, static_cast<std::uint8_t>(NormalMethod::authored)},
 }};
@@ -47,17 +48,20 @@ Study study_of(const Device& device, const Face& face, std::size_t active) {
     std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
     Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
                     std::to_string(face.positions.size()) + " vertices",
-                "normals recomputed on the deformed mesh in double precision (rig/deform_exact.h)", "degrees", {}, scene};
+                "normals recomputed on the deformed mesh in double precision (rig/deform_exact.h)",
+                "degrees",
+                {},
+                scene};
     if (!scene) return study;
     for (const NormalMethod method : {NormalMethod::authored, NormalMethod::recomputed}) {
         const std::string_view choice = source_choices[static_cast<std::size_t>(method)];
         Variant variant;
         variant.label = "normals.source=" + std::string(choice);
         variant.is_default = method == NormalMethod::authored;
-        const bool turns = method == NormalMethod::recomputed ||
-                           std::ranges::any_of(face.primitives, [](const Primitive& primitive) {
-                               return primitive.normal_source == NormalSource::recomputed;
-                           });
+        const bool turns =
+            method == NormalMethod::recomputed || std::ranges::any_of(face.primitives, [](const Primitive& primitive) {
+                return primitive.normal_source == NormalSource::recomputed;
+            });
         variant.work = turns ? "deformation, and the fan of every moved vertex" : "deformation with normal deltas";
         variant.run = [scene, method, turns] {
             scene->stream_out().add_targets_sparse(method);
@@ -97,8 +101,12 @@ void add_scaling_target(Face& face, glm::vec3 factor) {
 constexpr std::array<HardCase, 5> hard_cases = {{
     {"surface collapsed to a point", "no fan has a direction: the rest normals",
      [](Face& face) { add_scaling_target(face, glm::vec3(0)); }},
-    {"surface flattened to a plane", "every normal along the plane's", [](Face& face) { add_scaling_target(face, {1, 1, 0}); }},
-    {"surface turned inside out", "normals of the mirrored surface", [](Face& face) { add_scaling_target(face, glm::vec3(-1)); }},
+    {"surface flattened to a plane", "every normal along the plane's",
+     [](Face& face) {
+         add_scaling_target(face, {1, 1, 0});
+     }},
+    {"surface turned inside out", "normals of the mirrored surface",
+     [](Face& face) { add_scaling_target(face, glm::vec3(-1)); }},
     {"triangles without area", "they add nothing to any normal",
      [](Face& face) {
          for (std::size_t i = 0; i + 2 < face.indices.size(); i += 6) face.indices[i + 1] = face.indices[i];

@@ -5,8 +5,8 @@
 
 #include "rig/deform.h"
 #include "runtime/character_state.h"
-#include "runtime/effects/errors.h"
 #include "runtime/effect.h"
+#include "runtime/effects/errors.h"
 #include "runtime/frame.h"
 
 namespace blush {
@@ -58,7 +58,10 @@ std::vector<Study> studies(const Device& device, const Face& face, double millim
                 kept->exact.tangents);
 
     Study study{"joints on " + std::to_string(face.positions.size()) + " vertices",
-                "the same sum on the CPU in single precision", "mm", {}, kept};
+                "the same sum on the CPU in single precision",
+                "mm",
+                {},
+                kept};
     Variant variant;
     variant.label = "skinning";
     variant.is_default = true;

@@ -53,7 +53,8 @@ inline Buffer make_buffer() {
     glCreateBuffers(1, &name);
     return Buffer(name);
 }
-/// Immutable when `flags` is 0. A size of 0 becomes 16 bytes, since GL has no empty storage and a bound block needs one.
+/// Immutable when `flags` is 0. A size of 0 becomes 16 bytes, since GL has no empty storage and a bound block needs
+/// one.
 inline Buffer make_buffer(std::size_t bytes, const void* data, GLbitfield flags = 0) {
     Buffer buffer = make_buffer();
     if (bytes == 0) data = nullptr;

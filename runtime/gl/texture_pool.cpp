@@ -6,9 +6,12 @@ namespace blush::gl {
 
 GLenum internal_format(PixelFormat format) {
     switch (format) {
-        case PixelFormat::rgba16f: return GL_RGBA16F;
-        case PixelFormat::rgba8: return GL_RGBA8;
-        case PixelFormat::depth32f: return GL_DEPTH_COMPONENT32F;
+        case PixelFormat::rgba16f:
+            return GL_RGBA16F;
+        case PixelFormat::rgba8:
+            return GL_RGBA8;
+        case PixelFormat::depth32f:
+            return GL_DEPTH_COMPONENT32F;
     }
     return GL_NONE;
 }

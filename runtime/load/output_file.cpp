@@ -45,7 +45,8 @@ Status write_file(const fs::path& path, std::string_view contents) {
 Status write_image(const fs::path& path, const Image& image) {
     const auto output = OIIO::ImageOutput::create(path.string());
     if (!output) {
-        return Error{path.string() + ": no picture format is known by the ending \"" + path.extension().string() + "\""};
+        return Error{path.string() + ": no picture format is known by the ending \"" + path.extension().string() +
+                     "\""};
     }
     return write_beside(path, [&](const fs::path& beside) -> Status {
         const bool bytes = !image.bytes.empty();

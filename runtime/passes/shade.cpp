@@ -91,8 +91,8 @@ void draw_nodes(CharacterState& state, bool blended) {
 void shade(CharacterState& state, const FrameGraph& graph) {
     const View& view = *state.view;
     const GLuint framebuffer = state.scene_framebuffer.name();
-    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0,
-                              graph[state.resources.scene_color_multisampled].handle, 0);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, graph[state.resources.scene_color_multisampled].handle,
+                              0);
     glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, graph[state.resources.scene_depth].handle, 0);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, static_cast<GLsizei>(view.width), static_cast<GLsizei>(view.height));

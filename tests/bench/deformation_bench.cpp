@@ -1,6 +1,7 @@
 /// bench_deformation [ROUNDS]: what a frame's deformation costs with 52 of 8,192 targets active, against a face of the
 /// same size that has just those 52; and against the paper's scheme of repeated passes. All variants run in turn in one
-/// process, with weights that change every frame. The outputs are compared bit for bit first; exit status 1 if they differ.
+/// process, with weights that change every frame. The outputs are compared bit for bit first; exit status 1 if they
+/// differ.
 ///
 /// The bar: the ratio's median is at most 1.10.
 
@@ -155,7 +156,8 @@ int main(int argc, char** argv) {
             times[s].push_back(subjects[s].frame_ms(static_cast<std::uint32_t>(round + 1)));
         }
     }
-    std::printf("%s, %zu vertices, %zu rounds in turn\n", device->info().renderer.c_str(), few.positions.size(), rounds);
+    std::printf("%s, %zu vertices, %zu rounds in turn\n", device->info().renderer.c_str(), few.positions.size(),
+                rounds);
     for (std::size_t s = 0; s < subjects.size(); ++s) {
         std::vector<double> ratios;
         for (std::size_t round = 0; round < rounds; ++round) ratios.push_back(times[s][round] / times[0][round]);

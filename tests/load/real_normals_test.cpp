@@ -47,8 +47,7 @@ TEST_P(RealNormals, AgreeWithTheDeformedMeshAtHalfAndFullWeight) {
             std::vector<float> weights(face->targets.size(), 0);
             weights[t] = weight;
             deformer.deform(weights, GetParam(), surface);
-            const Angles found =
-                angles(face->targets[t], surface.normals, deform_exact(*face, weights).normals);
+            const Angles found = angles(face->targets[t], surface.normals, deform_exact(*face, weights).normals);
             worst_mean = std::max(worst_mean, found.mean);
             worst_share = std::max(worst_share, found.share_above_5_degrees);
             worst = std::max(worst, found.worst);
