@@ -441,7 +441,9 @@ private:
         const auto texture = [&](std::size_t k, int side, int ring) {
             const Index edge = side >= 0 ? head_.upper_lip[k] : head_.lower_lip[k];
             const double middle = 1 - mouth_v_ * (1 - face_v_top);
-            return Vec2(head_.mesh.uv[edge].x, mix(head_.mesh.uv[edge].y, middle, 0.95 * ring / rings));
+            // Inward the texture shrinks from the lips' corners too: nothing of the skin around bleeds into the throat.
+            const double inward = static_cast<double>(ring) / rings;
+            return Vec2(mix(head_.mesh.uv[edge].x, 0.5, 0.5 * inward), mix(head_.mesh.uv[edge].y, middle, inward));
         };
         const std::size_t half = head_.mesh.positions.size();
         add_lining(head_.upper_lip, head_.lower_lip, rings, Part::mouth_lining, place, texture,
