@@ -148,7 +148,41 @@ TEST(Lips, MeetAtRestAndPartWithTheJaw) {
     const ShapeTarget& open = target("jawOpen");
     for (std::size_t k = 0; k < head.upper_lip.size(); ++k)
         EXPECT_EQ(head.mesh.positions[head.upper_lip[k]], head.mesh.positions[head.lower_lip[k]]);
-    EXPECT_GT(glm::distance(moved(open, head.upper_lip[0]), moved(open, head.lower_lip[0])), 20);
+    // A full opening parts the incisors by 40 to 50 mm; the shape stays a little below.
+    EXPECT_GT(glm::distance(moved(open, head.upper_lip[0]), moved(open, head.lower_lip[0])), 30);
+}
+
+Index skin_nearest(const Vec3& place) {
+    const Head& head = built().head;
+    Index best = 0;
+    for (Index v = 0; v < head.mesh.positions.size(); ++v) {
+        if (head.tags[v].part != Part::skin) continue;
+        if (glm::distance(head.mesh.positions[v], place) < glm::distance(head.mesh.positions[best], place)) best = v;
+    }
+    return best;
+}
+
+TEST(Smile, DrawsTheCornersUpOutAndBackAndBendsTheLipsAsABow) {
+    const Head& head = built().head;
+    const ShapeTarget& smile = target("mouthSmileLeft");
+    const Vec3 corner = smile.position_deltas[head.upper_lip.back()];
+    EXPECT_GT(corner.x, 6);
+    EXPECT_GT(corner.y, 6);
+    EXPECT_LT(corner.z, -3);
+    // A V would lift the lip's quarter by half of the corner's way.
+    const Vec3 inner = smile.position_deltas[head.upper_lip[head.upper_lip.size() / 3]];
+    EXPECT_LT(inner.y, 0.35 * corner.y);
+}
+
+TEST(Smile, LiftsTheCheekOverANasolabialFold) {
+    const ShapeTarget& smile = target("mouthSmileLeft");
+    const auto outward = [&](const Vec3& place) {
+        const Index v = skin_nearest(place);
+        return glm::dot(smile.position_deltas[v], built().head.mesh.normals[v]);
+    };
+    EXPECT_GT(smile.position_deltas[skin_nearest({36, -38, 70})].y, 4);
+    const double cheek = outward({36, -48, 72}), crease = outward({25, -56, 84});
+    EXPECT_GT(cheek, crease + 3) << "millimetres along the skin's normal";
 }
 
 TEST(Lips, MouthCloseSealsAnOpenJaw) {
@@ -201,6 +235,20 @@ TEST(Skin, NormalsAreUnitAndTextureCoordinatesInside) {
         ASSERT_NEAR(glm::length(mesh.normals[v]), 1, 1e-9);
         ASSERT_TRUE(mesh.uv[v].x >= 0 && mesh.uv[v].x <= 1 && mesh.uv[v].y >= 0 && mesh.uv[v].y <= 1);
     }
+}
+
+TEST(Skin, TheCrownsTextureIsNotStretched) {
+    const Mesh& mesh = built().head.mesh;
+    int count = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const auto y = [&](std::size_t c) { return mesh.positions[t[c]].y; };
+        if (std::min({y(0), y(1), y(2)}) < 100) continue;
+        const auto u = [&](std::size_t c) { return mesh.uv[t[c]].x; };
+        ASSERT_LT(std::max({u(0), u(1), u(2)}) - std::min({u(0), u(1), u(2)}),
+                  0.05);  // two columns at most; one shared pole made 0.5
+        ++count;
+    }
+    EXPECT_GT(count, 100);
 }
 
 TEST(File, SameRequestSameBytes) {

@@ -37,9 +37,9 @@ void add_left_ear(Mesh& mesh, double fineness, const Vec2& uv_corner, double uv_
     const int front_rings = static_cast<int>(std::lround(19 * fineness));
     const int back_rings = static_cast<int>(std::lround(7 * fineness));
 
-    // The plane leans: its rear stands off the head by 25 degrees and its top leans back by 14.
+    // The plane leans: its rear stands off the head by 20 degrees and its top leans back by 14.
 
-    const double stand = radians(25), lean = radians(14);
+    const double stand = radians(20), lean = radians(14);
     const Vec3 forward(-std::sin(stand), 0, std::cos(stand)), out(std::cos(stand), 0, std::sin(stand));
     const Vec3 along = forward * std::cos(lean) + Vec3(0, 1, 0) * std::sin(lean);
     const Vec3 up = Vec3(0, 1, 0) * std::cos(lean) - forward * std::sin(lean);

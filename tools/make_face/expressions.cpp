@@ -65,13 +65,21 @@ public:
     }
 
     std::vector<ShapeTarget> all() {
-        const Pulls smile = {{mouth_corner, {19, 14, 20}, {7.0, 6.6, -4.5}},
-                             {{10, -64, 92}, {12, 9, 16}, {0.6, 0.8, -0.8}},
-                             {{35, -36, 64}, {15, 12, 18}, {1.2, 4.8, 4.4}},
-                             {{21, -51, 84}, {6, 10, 12}, {2.4, 2.0, -1.4}},
-                             {{31, -17, 74}, {15, 6, 12}, {0, 1.6, 0.6}}};
-        const Pulls frown = {{mouth_corner, {13, 12, 16}, {1.5, -7.5, -1.5}},
-                             {{17, -84, 84}, {12, 9, 14}, {0, -2.0, 1.0}}};
+        // Zygomaticus major draws the corner up, out and back around the teeth; the narrow bells keep the middle of the
+        // lips level, so that the mouth bends as a bow and not as a V.
+        const Pulls smile = {{mouth_corner, {13.5, 13, 20}, {8.5, 8.5, -6.5}},
+                             {{11, -69, 92}, {9, 12, 16}, {2.2, -0.8, -1.6}},
+                             {{11, -62, 93}, {11, 4.5, 12}, {0, -1.4, -1.2}, Pull::upper},
+                             {{11, -79, 90}, {11, 5.5, 12}, {0, 0.6, 0.6}, Pull::lower},
+                             {{36, -38, 66}, {15, 12, 20}, {1.6, 6.0, 5.0}},
+                             {{38, -54, 64}, {12, 12, 18}, {2.6, 4.0, 1.0}},
+                             {{12, -41, 95}, {5, 6, 10}, {1.3, 0.8, -0.4}},
+                             {{0, -92, 90}, {16, 14, 16}, {0, 1.0, -0.8}},
+                             {{31, -17, 74}, {15, 6, 12}, {0, 2.2, 1.0}}};
+        const Pulls frown = {{mouth_corner, {13, 12, 18}, {0.5, -9.5, -1.5}},
+                             {{11, -69, 92}, {10, 9, 14}, {0, 1.6, 0.6}},
+                             {{17, -86, 84}, {12, 9, 14}, {0, -2.0, 1.6}},
+                             {{0, -94, 88}, {14, 9, 14}, {0, 2.4, 1.6}}};
         const Pulls dimple = {{mouth_corner, {11, 11, 15}, {5.0, 1.2, -5.0}},
                               {{38, -66, 68}, {10, 13, 14}, {2, 0.5, 1.6}}};
         const Pulls stretch = {{mouth_corner, {15, 13, 18}, {8.5, -3.0, -5.5}},
@@ -88,22 +96,24 @@ public:
                                    },
                                    Pull::lower},
                                   {{14, -86, 86}, {12, 8, 12}, {0.5, -2.2, 0.4}}};
-        const Pulls sneer = {{{10, -28, 94}, {8, 11, 14}, {0.4, 4.4, 0.6}},
-                             {{14, -42, 94}, {7, 8, 11}, {1.2, 4.2, 0.2}},
-                             {{12, -62, 94}, {9, 8, 12}, {0.4, 2.2, 0.4}, Pull::upper},
-                             {{14, -8, 82}, {8, 7, 10}, {-0.6, 1.2, 1.4}}};
-        const Pulls cheek_raise = {{{35, -26, 70}, {16, 12, 16}, {0.2, 5.0, 3.0}},
-                                   {{33, -15, 75}, {14, 5, 10}, {0, 2.6, 0.8}}};
+        const Pulls sneer = {{{10, -28, 94}, {8, 11, 14}, {0.4, 5.2, 1.0}},
+                             {{14, -42, 94}, {7, 8, 11}, {1.8, 5.6, 0.2}},
+                             {{12, -62, 94}, {9, 8, 12}, {0.4, 3.4, 0.4}, Pull::upper},
+                             {{24, -34, 80}, {9, 9, 14}, {0.2, 4.0, 2.4}},
+                             {{9, 12, 88}, {9, 8, 12}, {-1.0, -2.6, 0.8}},
+                             {{14, -8, 82}, {8, 7, 10}, {-0.6, 1.6, 2.0}}};
+        const Pulls cheek_raise = {{{35, -28, 70}, {16, 12, 18}, {0.4, 6.2, 4.6}},
+                                   {{33, -15, 75}, {15, 5.5, 12}, {0, 3.4, 1.4}}};
         const Pulls cheek_puff = {{{38, -62, 62}, {16, 17, 24}, {9.5, 0.4, 7.0}},
                                   {{18, -58, 88}, {12, 8, 14}, {0.5, 0, 2.2}},
                                   {{18, -82, 85}, {12, 8, 14}, {0.5, 0, 2.4}},
                                   {{24, -69, 84}, {7, 8, 12}, {-1.2, 0, 0.6}}};
-        const Pulls brow_down = {{{14, 18, 88}, {13, 9, 14}, {-2.6, -5.6, 1.4}},
+        const Pulls brow_down = {{{14, 18, 88}, {13, 9, 14}, {-3.2, -6.8, 2.0}},
                                  {{32, 21, 78}, {15, 9, 16}, {-0.8, -4.6, 0.6}},
                                  {{34, 9, 80}, {15, 5, 12}, {0, -1.6, 0.6}}};
-        const Pulls brow_inner_up = {{{10, 20, 90}, {13, 11, 16}, {0.6, 7.0, 0.2}},
-                                     {{9, 42, 88}, {20, 14, 18}, {0, 3.0, 0.4}}};
-        const Pulls brow_outer_up = {{{38, 22, 72}, {15, 11, 18}, {0.6, 7.0, -0.6}},
+        const Pulls brow_inner_up = {{{10, 20, 90}, {12.5, 11, 16}, {0.6, 8.2, 0.4}},
+                                     {{9, 42, 88}, {20, 14, 18}, {0, 3.6, 0.6}}};
+        const Pulls brow_outer_up = {{{36, 22, 72}, {16, 11, 20}, {0.6, 9.0, -0.4}},
                                      {{36, 42, 72}, {18, 14, 20}, {0, 3.0, 0.2}},
                                      {{36, 11, 78}, {14, 5, 12}, {0, 1.8, 0}}};
         const Pulls press = {{{14, -60, 92}, {12, 5, 14}, {0.4, -1.5, -1.0}, Pull::upper},
@@ -144,7 +154,7 @@ public:
         add_sides("eyeSquint", [&](Index v) {
             return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12}) + pulled(v, cheek_raise * 0.35);
         });
-        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 9, .lower_degrees = -2}); });
+        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 12, .lower_degrees = -3}); });
         add_whole("jawForward", [&](Index v) { return jaw_[v] * Vec3(0, -0.6, 6); });
         add_sides("jaw", [&](Index v) { return jaw_[v] * Vec3(7, 0, 0); });
         add_whole("jawOpen", [&](Index v) { return jaw_opened(rest(v), jaw_[v]) - rest(v); });
@@ -160,10 +170,10 @@ public:
         add_whole("mouthRollUpper", [&](Index v) { return pulled(v, roll_upper); });
         add_whole("mouthShrugLower", [&](Index v) { return pulled(v, shrug_lower); });
         add_whole("mouthShrugUpper", [&](Index v) { return pulled(v, shrug_upper); });
-        add_sides("mouthSmile", [&](Index v) { return pulled(v, smile); });
+        add_sides("mouthSmile", [&](Index v) { return pulled(v, smile) + folded(v, 1); });
         add_sides("mouthStretch", [&](Index v) { return pulled(v, stretch); });
         add_sides("mouthUpperUp", [&](Index v) { return pulled(v, upper_up); });
-        add_sides("noseSneer", [&](Index v) { return pulled(v, sneer); });
+        add_sides("noseSneer", [&](Index v) { return pulled(v, sneer) + folded(v, 0.5); });
         return std::move(targets_);
     }
 
@@ -189,6 +199,30 @@ private:
             sum += strength * pull.move;
         }
         return sum;
+    }
+
+    /// The nasolabial fold: a crease from the wing of the nose past the mouth's corner, and the cheek that bulges over
+    /// it, along the skin's normal.
+    Vec3 folded(Index v, double strength) const {
+        constexpr double groove_mm = 2.0, groove_width = 2.8, bulge_mm = 3.0, bulge_width = 8;
+        constexpr Vec2 line[] = {{14.5, -33}, {18, -42}, {23, -52}, {29, -62}, {32.5, -73}};
+        if (head_.tags[v].part != Part::skin || rest(v).x < 0 || rest(v).z < 35) return Vec3(0);
+        const Vec2 p(rest(v).x, rest(v).y);
+        double nearest = 1e9, side = 0, along = 0;
+        for (std::size_t k = 0; k + 1 < std::size(line); ++k) {
+            const Vec2 way = line[k + 1] - line[k], arm = p - line[k];
+            const double t = std::clamp(glm::dot(arm, way) / glm::dot(way, way), 0.0, 1.0);
+            const double distance = glm::length(arm - way * t);
+            if (distance >= nearest) continue;
+            nearest = distance;
+            side = way.x * arm.y - way.y * arm.x;
+            along = (static_cast<double>(k) + t) / (std::size(line) - 1);
+        }
+        const double fade = smooth_step(0, 0.15, along) * smooth_step(1, 0.65, along);
+        const double toward_cheek = side > 0 ? nearest : -nearest;
+        const double height =
+            bulge_mm * bell(toward_cheek - bulge_width, bulge_width) - groove_mm * bell(toward_cheek, groove_width);
+        return head_.mesh.normals[v] * (strength * fade * height);
     }
 
     /// With jawOpen at 1 this brings the lips' edges together again: each goes its share of the gap that the jaw

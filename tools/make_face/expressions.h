@@ -13,7 +13,7 @@
 namespace blush::make_face {
 
 /// The jaw's share of a turn at full opening, radians, and where a point of the mandible goes at a share of it.
-inline constexpr double jaw_open_angle = 17 * pi / 180;
+inline constexpr double jaw_open_angle = 21 * pi / 180;
 Vec3 jaw_opened(const Vec3& p, double share);
 
 /// All targets that move the head's skin (51: all but tongueOut).

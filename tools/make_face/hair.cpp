@@ -58,15 +58,21 @@ void grow_hair(Head& head) {
         if (head.tags[v].part != Part::skin || p.x < 0 || head.image[v] < v) continue;
         const double cover = hair_cover(p);
         if (cover <= 0) continue;
-        const double length = mix(2.0, 7.0, smooth_step(20, 85, p.y));
+        const double length = mix(2.0, 11.0, smooth_step(-40, 90, p.y));
         const Strand s = strand({std::abs(p.x), p.y, p.z});
         const double tuft = noise({std::cos(s.across) * 7, std::sin(s.across) * 7, s.along * 2.5});
         const bool middle = p.x == 0;
-        p += head.mesh.normals[v] * (cover * length * (1 + 0.22 * tuft));
+        p += head.mesh.normals[v] * (cover * length * (1 + 0.10 * tuft));
         if (middle) p.x = 0;
         if (head.image[v] != v) head.mesh.positions[head.image[v]] = mirrored(p);
     }
     head.mesh.normals = head_normals(head, head.mesh.positions);
+}
+
+double hair_relief(const Vec3& p) {
+    const Strand s = strand(p);
+    const double a = std::cos(s.across), b = std::sin(s.across);
+    return 0.16 * noise({a * 110, b * 110, s.along * 5}) + 0.55 * noise({a * 26, b * 26, s.along * 3.2});
 }
 
 Vec3 hair_color(const Vec3& p) {
@@ -74,7 +80,7 @@ Vec3 hair_color(const Vec3& p) {
     const double a = std::cos(s.across), b = std::sin(s.across);
     const double fine = noise({a * 110, b * 110, s.along * 5}), broad = noise({a * 26, b * 26, s.along * 3.2});
     const double light = 0.62 + 0.30 * fine + 0.22 * broad;
-    return glm::mix(Vec3(0.115, 0.070, 0.050), Vec3(0.315, 0.205, 0.145), std::clamp(light, 0.0, 1.0));
+    return glm::mix(Vec3(0.085, 0.052, 0.038), Vec3(0.265, 0.165, 0.110), std::clamp(light, 0.0, 1.0));
 }
 
 }  // namespace blush::make_face

@@ -14,6 +14,9 @@ double hair_paint(const Vec3& p);
 /// Lifts the scalp to the hair's outer surface, in strands that run from the crown's whorl.
 void grow_hair(Head& head);
 
+/// Height of the strands over the mean surface of the hair, millimetres.
+double hair_relief(const Vec3& p);
+
 /// sRGB, 0 to 1.
 Vec3 hair_color(const Vec3& p);
 

@@ -15,7 +15,7 @@ constexpr Vec3 neck_end_centre{0, -156, -33};
 constexpr double chin_elevation = radians(-49), brow_elevation = radians(28);
 
 /// The strip of the texture above the face holds the ears; the face has the rest.
-constexpr double face_v_top = 0.15;
+constexpr double face_v_top = 0.17;  // a margin of bare texels keeps the ears out of the crown's mip levels
 constexpr double ear_uv_side = 0.145;
 
 Vec3 direction(double azimuth, double elevation) {
@@ -109,7 +109,14 @@ public:
     std::vector<char> on_seam() const {
         std::vector<char> seam(head_.mesh.positions.size(), 0);
         for (int j = 0; j < grid_.last_row(); ++j) seam[id(grid_.last_column(), j)] = 1;
+        for (const Index v : poles()) seam[v] = 1;
         return seam;
+    }
+    /// The copies of the pole, one a column.
+    std::vector<Index> poles() const {
+        std::vector<Index> all;
+        for (int i = 0; i <= grid_.last_column(); ++i) all.push_back(id(i, grid_.last_row()));
+        return all;
     }
 
 private:
@@ -123,22 +130,18 @@ private:
         return upper_[static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i)];
     }
 
-    /// A vertex on a slit exists twice: `lower` belongs to the row below, `upper` to the row above. The last row is one
-    /// pole.
+    /// A vertex on a slit exists twice: `lower` belongs to the row below, `upper` to the row above. The last row
+    /// lies on one pole, a copy for each column: a shared one would stretch the texture of its triangles to a smear.
     void number_vertices() {
         columns_ = static_cast<std::size_t>(grid_.last_column() + 1);
         const std::size_t cells = columns_ * static_cast<std::size_t>(grid_.last_row() + 1);
         lower_.resize(cells);
         upper_.resize(cells);
-        Index next = 0, pole = 0;
+        Index next = 0;
         for (int j = 0; j <= grid_.last_row(); ++j) {
             for (int i = 0; i <= grid_.last_column(); ++i) {
                 const std::size_t cell = static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i);
-                if (j == grid_.last_row() && i > 0) {
-                    lower_[cell] = upper_[cell] = pole;
-                    continue;
-                }
-                lower_[cell] = pole = next++;
+                lower_[cell] = next++;
                 upper_[cell] = slit(i, j) ? next++ : lower_[cell];
             }
         }
@@ -205,8 +208,8 @@ private:
             }
             if (i <= grid_.mouth_corner) pin(i, grid_.mouth, lip, lip);
         }
-        positions_[id(0, grid_.last_row())] = leave_head(fan_origin, {0, 1, 0});
-        pinned_[id(0, grid_.last_row())] = 1;
+        const Vec3 pole = leave_head(fan_origin, {0, 1, 0});
+        for (int i = 0; i <= grid_.last_column(); ++i) positions_[id(i, grid_.last_row())] = {0, pole.y, pole.z};
         for (int j = 0; j <= grid_.last_row(); ++j) {
             for (const int i : {0, grid_.last_column()}) positions_[id(i, j)].x = positions_[upper_id(i, j)].x = 0;
         }
@@ -315,7 +318,10 @@ private:
                     tag.lip = j > grid_.mouth ? 1 : j < grid_.mouth ? -1 : !in_mouth(i) ? 0 : is_upper_copy ? 1 : -1;
                     tag.lid = j > grid_.eye ? 1 : j < grid_.eye ? -1 : !in_eye(i) ? 0 : is_upper_copy ? 1 : -1;
                 }
-                if (i < grid_.last_column() && j < grid_.last_row())
+                if (i == grid_.last_column() || j == grid_.last_row()) continue;
+                if (j + 1 == grid_.last_row())
+                    head_.mesh.triangles.push_back({upper_id(i, j), upper_id(i + 1, j), id(i, j + 1)});
+                else
                     head_.mesh.add_quad(upper_id(i, j), upper_id(i + 1, j), id(i + 1, j + 1), id(i, j + 1));
             }
         }
@@ -435,7 +441,9 @@ private:
         const auto texture = [&](std::size_t k, int side, int ring) {
             const Index edge = side >= 0 ? head_.upper_lip[k] : head_.lower_lip[k];
             const double middle = 1 - mouth_v_ * (1 - face_v_top);
-            return Vec2(head_.mesh.uv[edge].x, mix(head_.mesh.uv[edge].y, middle, 0.95 * ring / rings));
+            // Inward the texture shrinks from the lips' corners too: nothing of the skin around bleeds into the throat.
+            const double inward = static_cast<double>(ring) / rings;
+            return Vec2(mix(head_.mesh.uv[edge].x, 0.5, 0.5 * inward), mix(head_.mesh.uv[edge].y, middle, inward));
         };
         const std::size_t half = head_.mesh.positions.size();
         add_lining(head_.upper_lip, head_.lower_lip, rings, Part::mouth_lining, place, texture,
@@ -479,6 +487,8 @@ Head make_head(std::size_t vertices) {
         }
         if (seam[v]) head.weld[w] = v;
     }
+    const std::vector<Index> poles = half.poles();
+    for (const Index v : poles) head.weld[v] = head.weld[head.image[v]] = poles.front();
     head.mesh.normals = head_normals(head, head.mesh.positions);
     return head;
 }

@@ -38,17 +38,18 @@ double skull(const Vec3& p) {
     d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);      // nape
     d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);     // behind the concha
     const Vec3 neck{p.x, p.y, p.z * 0.96};
-    d = join(d, cone(p, {41, -62, -22}, {12, -165, 22}, 11, 10), 14);  // sternocleidomastoid
-    return join(d, cone(neck, {0, -80, -24}, {0, -205, -36}, 46, 53), 22);
+    d = join(d, cone(p, {41, -62, -22}, {13, -170, 4}, 11, 5), 16);  // sternocleidomastoid
+    return join(d, cone(neck, {0, -80, -24}, {0, -205, -36}, 44, 50), 22);
 }
 
 double soft_tissue(const Vec3& p, double d) {
     d = join(d, ellipsoid(p, {31, -48, 51}, {24.5, 28, 27}), 18);  // cheek
     d = join(d, ellipsoid(p, {0, -66, 60}, {32, 26, 32.5}), 14);   // over the dental arch
-    d = join(d, join(cone(p, {0, 17.5, 83.5}, {23, 20, 79}, 8.5, 8.5), cone(p, {23, 20, 79}, {41, 17, 65}, 8.5, 7), 4),
-             16);                                                        // brow
-    d = carve(d, ellipsoid(p, {32.5, -2, 89}, {18.5, 12.5, 15.5}), 12);  // orbit
-    d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);        // infraorbital rim
+    d = join(
+        d, join(cone(p, {0, 19, 82.5}, {23, 20.5, 78.5}, 7.5, 7.5), cone(p, {23, 20.5, 78.5}, {41, 17, 65}, 7.5, 7), 4),
+        18);                                                           // brow
+    d = carve(d, ellipsoid(p, {33.5, -2, 89.5}, {18, 12.5, 14}), 14);  // orbit
+    d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);      // infraorbital rim
     return d;
 }
 

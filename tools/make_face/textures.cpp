@@ -102,7 +102,7 @@ double brow_cover(const Vec3& p) {
     const double s = (x - 9.5) / 39.0;  // 0 at the brow's head, 1 at its tail
     if (s < -0.1 || s > 1.1 || p.z < 20 || p.y < 5 || p.y > 40) return 0;
     const double middle =
-        17.0 + 8.2 * std::sin(pi * 0.5 * std::clamp(s / 0.68, 0.0, 1.0)) - 9.5 * square(std::max(0.0, s - 0.66) / 0.34);
+        19.2 + 4.6 * std::sin(pi * 0.5 * std::clamp(s / 0.68, 0.0, 1.0)) - 6.5 * square(std::max(0.0, s - 0.66) / 0.34);
     const double half_width = mix(3.9, 1.0, smooth_step(0.25, 1.05, s)) * smooth_step(-0.06, 0.06, s);
     const double across = (p.y - middle) / std::max(half_width, 0.1);
     // Hairs: streaks that run upward at the head of the brow and lean outward toward its tail.
@@ -130,7 +130,7 @@ Color skin_color(const Vec3& p, const Vec3& normal) {
     toward(blood, 0.16 * bell(half, {0, -101, 88}, {14, 10, 16}));            // chin
     toward(shadow, 0.26 * bell(half, {29, -14, 78}, {14, 5, 12}));            // below the eye
     toward(blood, 0.30 * bell(half, {15.5, -3, 78}, {5, 5, 8}));              // inner canthus
-    toward(shadow, 0.30 * bell(half, {32, 11, 80}, {15, 4, 10}));             // fold of the upper lid
+    toward(shadow, 0.22 * bell(half, {32, 11, 80}, {15, 4, 10}));             // fold of the upper lid
     toward(Color(0.34, 0.17, 0.14),
            0.95 * bell(half, {6.6, -45, 99.5}, {4.2, 4.0, 6.5}) * smooth_step(0.35, -0.15, normal.z));  // nostril
     toward(blood, 0.16 * (0.5 + 0.5 * fractal_noise(p / 9.0, 3)));                                      // uneven tone
@@ -198,6 +198,17 @@ Picture paint_skin(const Head& head, int side) {
         picture.rgb[k + 1] = 155;
         picture.rgb[k + 2] = 132;
     }
+    // The crown's triangles are thinner than a texel where they run along the strip of the ears: hair all round them.
+    constexpr double margin_begin = 0.15, margin_end = 0.175;
+    const Color crown = hair_color({0, 120, -5});
+    for (int y = static_cast<int>(margin_begin * side); y < static_cast<int>(margin_end * side); ++y) {
+        for (int x = 0; x < side; ++x)
+            for (int k = 0; k < 3; ++k) {
+                picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+                                 static_cast<std::size_t>(x)) +
+                            static_cast<std::size_t>(k)] = to_byte(crown[k]);
+            }
+    }
     for_each_texel(head, side, [&](int x, int y, const Spot& spot) {
         const Color c = face_color(spot);
         const std::size_t at =
@@ -208,7 +219,7 @@ Picture paint_skin(const Head& head, int side) {
 }
 
 Picture paint_roughness(const Head& head, int side) {
-    constexpr double skin = 0.52, oily = 0.43, lip = 0.38, hair = 0.82, wet = 0.3;
+    constexpr double skin = 0.52, oily = 0.43, lip = 0.38, hair = 1, wet = 0.3;
     Picture picture{side,
                     std::vector<unsigned char>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 3)};
     for (std::size_t k = 1; k < picture.rgb.size(); k += 3) picture.rgb[k] = to_byte(skin);
@@ -304,12 +315,14 @@ Picture paint_pores(const Head& head, int side) {
     Picture picture{side, {}};
     picture.rgb.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 3, 128);
     for (std::size_t k = 2; k < picture.rgb.size(); k += 3) picture.rgb[k] = 255;
-    const auto height = [](const Vec3& p) { return 0.045 * fractal_noise(p / 0.9, 2); };
+    const auto pores = [](const Vec3& p) { return 0.045 * fractal_noise(p / 0.9, 2); };
     for_each_texel(head, side, [&](int x, int y, const Spot& spot) {
-        if (spot.part != Part::skin || hair_cover(spot.p) > 0.3) return;
+        if (spot.part != Part::skin) return;
+        const bool hairy = hair_cover(spot.p) > 0.3;
         const Vec3 up = glm::normalize(Vec3(0, 1, 0) - spot.normal * spot.normal.y + Vec3(1e-9, 0, 0));
         const Vec3 right = glm::cross(up, spot.normal);
-        constexpr double h = 0.12;
+        const double h = hairy ? 0.4 : 0.12;  // less than a pore or a strand is wide
+        const auto height = [&](const Vec3& p) { return hairy ? hair_relief(p) : pores(p); };
         const double gentle = 1 - 0.6 * bell(Vec3(std::abs(spot.p.x), spot.p.y, spot.p.z), eye_centre, {22, 14, 22});
         const double dx = gentle * (height(spot.p + right * h) - height(spot.p - right * h)) / (2 * h);
         const double dy = gentle * (height(spot.p + up * h) - height(spot.p - up * h)) / (2 * h);
