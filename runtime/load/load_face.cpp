@@ -31,6 +31,7 @@ Face read_face(const std::filesystem::path& path, const LoadLimits& limits) {
             load::refuse("", "not a face file: it is named " + extension + ", but its content is neither GLB nor JSON");
         return load::read_gltf(file, path, limits);
     }
+    if (extension == ".obj" && load::is_glb(file)) load::refuse("", "it is named .obj, but its content is GLB");
     if (extension == ".obj") return load::read_obj(file, limits);
     // A face under another name is known by the GLB magic alone: many files are JSON or text.
     if (load::is_glb(file)) return load::read_gltf(file, path, limits);

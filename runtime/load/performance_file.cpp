@@ -43,6 +43,7 @@ Result<Performance> read_performance(const fs::path& path, const std::string& fi
     std::string_view text = *contents;
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (text.find('\0') != std::string_view::npos) return Error{file + ": not a performance: it is not a text file"};
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) return Error{file + ": the file is empty"};
     Result<Performance> performance =

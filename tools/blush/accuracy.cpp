@@ -30,15 +30,16 @@ Json json_of(const AccuracyReport& report) {
     for (const MeasuredStudy& study : report.studies) {
         Json variants = Json::array();
         for (const MeasuredVariant& variant : study.variants) {
-            variants.push_back({{"label", variant.label},
-                                {"default", variant.is_default},
-                                {"work", variant.work},
-                                {"error_mean", variant.error_mean},
-                                {"error_worst", variant.error_worst},
-                                {"time_ms", {{"median", variant.median_ms}, {"quartiles", {variant.low_ms, variant.high_ms}}}},
-                                {"time_ratio_to_default",
-                                 {{"median", variant.ratio_to_default}, {"quartiles", {variant.ratio_low, variant.ratio_high}}}},
-                                {"on_frontier", variant.on_frontier}});
+            variants.push_back(
+                {{"label", variant.label},
+                 {"default", variant.is_default},
+                 {"work", variant.work},
+                 {"error_mean", variant.error_mean},
+                 {"error_worst", variant.error_worst},
+                 {"time_ms", {{"median", variant.median_ms}, {"quartiles", {variant.low_ms, variant.high_ms}}}},
+                 {"time_ratio_to_default",
+                  {{"median", variant.ratio_to_default}, {"quartiles", {variant.ratio_low, variant.ratio_high}}}},
+                 {"on_frontier", variant.on_frontier}});
         }
         json["studies"].push_back({{"effect", study.effect},
                                    {"name", study.name},
@@ -53,10 +54,17 @@ std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
         switch (c) {
-            case '&': out += "&amp;"; break;
-            case '<': out += "&lt;"; break;
-            case '>': out += "&gt;"; break;
-            default: out += c;
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            default:
+                out += c;
         }
     }
     return out;
@@ -85,13 +93,15 @@ std::string plot_of(const MeasuredStudy& study) {
     };
     const auto y = [&](double error) {
         const double shown = std::max(error, low_error);
-        return height - bottom - (height - top - bottom) * std::log(shown / low_error) / std::log(high_error / low_error);
+        return height - bottom -
+               (height - top - bottom) * std::log(shown / low_error) / std::log(high_error / low_error);
     };
     std::string svg = "<svg viewBox=\"0 0 " + number(width, "%.0f") + " " + number(height + 0, "%.0f") +
                       "\" role=\"img\" aria-label=\"worst error over median time\">\n";
     svg += "<rect x=\"" + number(left) + "\" y=\"" + number(top) + "\" width=\"" + number(width - left - right) +
            "\" height=\"" + number(height - top - bottom) + "\" class=\"frame\"/>\n";
-    svg += "<text x=\"" + number(left) + "\" y=\"" + number(height - 22, "%.0f") + "\">" + number(low_ms) + " ms</text>";
+    svg +=
+        "<text x=\"" + number(left) + "\" y=\"" + number(height - 22, "%.0f") + "\">" + number(low_ms) + " ms</text>";
     svg += "<text x=\"" + number(width - right, "%.0f") + "\" y=\"" + number(height - 22, "%.0f") +
            "\" text-anchor=\"end\">" + number(high_ms) + " ms</text>";
     svg += "<text x=\"" + number((left + width - right) / 2) + "\" y=\"" + number(height - 6, "%.0f") +
@@ -106,8 +116,8 @@ std::string plot_of(const MeasuredStudy& study) {
         const std::string at_y = number(y(variant.error_worst), "%.1f"), kind = variant.on_frontier ? "best" : "beaten";
         svg += "<line class=\"" + kind + "\" x1=\"" + number(x(variant.low_ms), "%.1f") + "\" x2=\"" +
                number(x(variant.high_ms), "%.1f") + "\" y1=\"" + at_y + "\" y2=\"" + at_y + "\"/>";
-        svg += "<circle class=\"" + kind + "\" r=\"5\" cx=\"" + number(x(variant.median_ms), "%.1f") + "\" cy=\"" + at_y +
-               "\"/><text x=\"" + number(x(variant.median_ms), "%.1f") + "\" y=\"" +
+        svg += "<circle class=\"" + kind + "\" r=\"5\" cx=\"" + number(x(variant.median_ms), "%.1f") + "\" cy=\"" +
+               at_y + "\"/><text x=\"" + number(x(variant.median_ms), "%.1f") + "\" y=\"" +
                number(y(variant.error_worst) - 9 - 12.0 * static_cast<double>(v % 2), "%.1f") +
                "\" text-anchor=\"middle\">" + std::to_string(v + 1) + "</text>\n";
     }
@@ -123,17 +133,18 @@ std::string page_of(const AccuracyReport& report) {
         "svg{width:100%;max-width:40rem;font-size:12px;fill:#444}.frame{fill:none;stroke:#bbb}"
         "circle.best{fill:#a3283c}circle.beaten{fill:#aaa}line.best{stroke:#a3283c}line.beaten{stroke:#aaa}"
         "line{stroke-width:2}\n</style>\n<h1>What accuracy costs in time</h1>\n<p>Face: " +
-        escaped(report.face) + " (" + number(report.millimetres_a_unit) + " mm a unit). Renderer: " +
-        escaped(report.renderer) + ". " + std::to_string(report.rounds) +
+        escaped(report.face) + " (" + number(report.millimetres_a_unit) +
+        " mm a unit). Renderer: " + escaped(report.renderer) + ". " + std::to_string(report.rounds) +
         " rounds, the variants of a study in turn; median and quartiles. A ratio compares times of one round. Red: no "
         "other variant is both as fast and more exact.</p>\n";
     std::string effect;
     for (const MeasuredStudy& study : report.studies) {
         if (study.effect != effect) html += "<h2>" + escaped(effect = study.effect) + "</h2>\n";
-        html += "<h3>" + escaped(study.name) + "</h3>\n<p>Error in " + escaped(study.unit) + " against " +
-                escaped(study.reference) + ".</p>\n" + plot_of(study) +
-                "<table><tr><th></th><th>variant</th><th>mean error</th><th>worst</th><th>median ms</th><th>quartiles</th>"
-                "<th>time / default</th><th>quartiles</th><th>work</th></tr>\n";
+        html +=
+            "<h3>" + escaped(study.name) + "</h3>\n<p>Error in " + escaped(study.unit) + " against " +
+            escaped(study.reference) + ".</p>\n" + plot_of(study) +
+            "<table><tr><th></th><th>variant</th><th>mean error</th><th>worst</th><th>median ms</th><th>quartiles</th>"
+            "<th>time / default</th><th>quartiles</th><th>work</th></tr>\n";
         for (std::size_t v = 0; v < study.variants.size(); ++v) {
             const MeasuredVariant& variant = study.variants[v];
             html += "<tr><td>" + std::to_string(v + 1) + "</td><td>" + escaped(variant.label) +
@@ -182,14 +193,15 @@ int accuracy(const Options& options) {
 
 void add_accuracy(CLI::App& app, int& exit_status) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("accuracy", "Measure error against time for every effect and setting, and write a page of it");
+    CLI::App* command = app.add_subcommand(
+        "accuracy", "Measure error against time for every effect and setting, and write a page of it");
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->capture_default_str();
     command->add_option("--effect", options->effect, "One effect by name");
     command->add_flag("--quick", options->quick, "Fewer rounds and the largest study of each effect only");
-    command->add_option("--millimetres-per-unit", options->millimetres_a_unit,
-                        "Scale of the face; without it its largest extent is taken as 240 mm")
-        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--millimetres-per-unit", options->millimetres_a_unit,
+                     "Scale of the face; without it its largest extent is taken as 240 mm")
+        ->check(number_from(1e-6, 1e6));
     command->add_option("-o,--output", options->output, "A folder for accuracy.json and index.html")->required();
     command->callback([options, &exit_status] { exit_status = accuracy(*options); });
 }

@@ -23,7 +23,8 @@ std::optional<NotFinite> find_not_finite(const Character::Surface& surface, cons
     for (std::size_t v = 0; v < surface.positions.size(); ++v) {
         for (glm::length_t c = 0; c < 3; ++c) {
             const std::string place = "vertex " + std::to_string(v) + " component " + std::to_string(c);
-            if (!std::isfinite(surface.positions[v][c])) return NotFinite{pass, "positions", place, surface.positions[v][c]};
+            if (!std::isfinite(surface.positions[v][c]))
+                return NotFinite{pass, "positions", place, surface.positions[v][c]};
             if (!std::isfinite(surface.normals[v][c])) return NotFinite{pass, "normals", place, surface.normals[v][c]};
         }
     }
@@ -38,7 +39,9 @@ Result<Character::Surface> evaluate_on_cpu(const Face& face, const Options& opti
     for (const std::string& setting : options.pose.settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos) return Error{"--setting " + setting + ": not NAME=CHOICE"};
-        if (Status set = settings.set(setting.substr(0, equals), setting.substr(equals + 1)); !set) return set.error();
+        if (Status set = settings.set(setting.substr(0, equals), setting.substr(equals + 1)); !set) {
+            return Error{"--setting " + setting + ": " + set.error().message};
+        }
     }
     Pose pose = rig.rest_pose();
     rig.evaluate(controls, pose);
@@ -101,8 +104,12 @@ void add_evaluate(CLI::App& app, int& exit_status) {
         "evaluate", "Write the deformed mesh: every vertex of the file, all primitives in file order, before joints");
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
     options->pose.add_to(*command);
-    command->add_option("--on", options->on, "Where to compute")->check(CLI::IsMember({"cpu", "gpu"}))->capture_default_str();
-    command->add_option("--space", options->space, "mesh: the mesh's own space; world: after its node's place in the scene")
+    command->add_option("--on", options->on, "Where to compute")
+        ->check(CLI::IsMember({"cpu", "gpu"}))
+        ->capture_default_str();
+    command
+        ->add_option("--space", options->space,
+                     "mesh: the mesh's own space; world: after its node's place in the scene")
         ->check(CLI::IsMember({"mesh", "world"}))
         ->capture_default_str();
     command->add_option("-o,--output", options->output, "A .ply or .obj file")->required();

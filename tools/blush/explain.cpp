@@ -47,8 +47,8 @@ void print(const Json& json) {
     const auto text = [](const Json& value) { return value.get<std::string>(); };
     std::cout << "effects\n";
     for (const Json& effect : json["effects"]) {
-        std::cout << "  " << text(effect["name"]) << ": " << (effect["on"].get<bool>() ? "on" : "left out") << ", since "
-                  << text(effect["reason"]);
+        std::cout << "  " << text(effect["name"]) << ": " << (effect["on"].get<bool>() ? "on" : "left out")
+                  << ", since " << text(effect["reason"]);
         if (effect.contains("omission")) {
             std::cout << (effect["omission"] == "exact" ? " (exact: changes no bit)" : " (bounded)");
         }
@@ -56,12 +56,13 @@ void print(const Json& json) {
     }
     std::cout << "passes\n";
     for (const Json& pass : json["passes"]) {
-        std::cout << "  " << text(pass["name"]) << (pass["runs"].get<bool>() ? "" : ": culled, nothing reads it") << "\n";
+        std::cout << "  " << text(pass["name"]) << (pass["runs"].get<bool>() ? "" : ": culled, nothing reads it")
+                  << "\n";
     }
     std::cout << "active targets: " << json["active_targets"].size() << " of " << json["targets"] << ", "
               << json["deltas_added"] << " deltas added, " << json["triangles_drawn"] << " triangles drawn\n";
     for (const Json& target : json["active_targets"]) {
-        std::cout << "  " << text(target["name"]) << " = " << target["weight"] << "\n";
+        std::cout << "  " << text(target["name"]) << " = " << target["weight"].get<float>() << "\n";
     }
 }
 
@@ -87,7 +88,8 @@ int explain(const Options& options) {
 
 void add_explain(CLI::App& app, int& exit_status) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("explain", "Say what the frame that render draws runs and leaves out, and why");
+    CLI::App* command =
+        app.add_subcommand("explain", "Say what the frame that render draws runs and leaves out, and why");
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
     options->pose.add_to(*command);
     command->add_flag("--json", options->json, "Print JSON");

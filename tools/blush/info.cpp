@@ -106,7 +106,7 @@ void print(const Json& json) {
     std::cout << "\nmaterials (" << json["materials"].size() << ")\n";
     for (const Json& material : json["materials"]) {
         std::cout << "  " << (text(material["name"]).empty() ? "(unnamed)" : text(material["name"])) << ": roughness "
-                  << material["roughness"] << ", metallic " << material["metallic"]
+                  << material["roughness"].get<float>() << ", metallic " << material["metallic"].get<float>()
                   << (material["base_color_image"].is_null() ? "" : ", base colour map")
                   << (material["normal_map"].get<bool>() ? ", normal map" : "") << "\n";
     }
@@ -117,8 +117,8 @@ void print(const Json& json) {
     std::cout << "\nanimations (" << json["animations"].size() << ")\n";
     for (const Json& animation : json["animations"]) {
         std::cout << "  " << (text(animation["name"]).empty() ? "(unnamed)" : text(animation["name"])) << ": "
-                  << animation["duration_seconds"] << " s, " << animation["weight_channels"] << " weight and "
-                  << animation["node_channels"] << " node channels\n";
+                  << animation["duration_seconds"].get<float>() << " s, " << animation["weight_channels"]
+                  << " weight and " << animation["node_channels"] << " node channels\n";
     }
     std::cout << "\nnot understood (" << json["not_understood"].size() << ")\n";
     for (const Json& note : json["not_understood"]) std::cout << "  " << text(note) << "\n";
@@ -132,7 +132,8 @@ void add_info(CLI::App& app, int& exit_status) {
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "Say what a face file holds: meshes, targets, materials, animations");
+    CLI::App* command =
+        app.add_subcommand("info", "Say what a face file holds: meshes, targets, materials, animations");
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options, &exit_status] {

@@ -23,8 +23,17 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        std::cerr << "blush: " << error.what() << "\n";
-        return blush::tool::bad_input;
+        std::string reason = error.what();
+        const std::string command = argc > 1 ? argv[1] : "";
+        if (app.get_subcommands().empty() && !command.empty() && command.front() != '-') {
+            reason = "there is no command \"" + command + "\" (there are:";
+            for (const CLI::App* known : app.get_subcommands({})) reason += " " + known->get_name();
+            reason += ")";
+        }
+        return blush::tool::fail({reason});
     }
+    // What was printed is a result too: a full disk or a closed pipe lost some of it.
+    std::cout.flush();
+    if (exit_status == 0 && !std::cout) return blush::tool::fail({"standard output: cannot be written"});
     return exit_status;
 }

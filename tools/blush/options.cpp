@@ -1,7 +1,9 @@
 #include "tools/blush/options.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -33,6 +35,23 @@ Result<Size> parse_size(const std::string& text) {
     return size;
 }
 
+CLI::Validator number_from(double low, double high) {
+    const auto plain = [](double value) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%g", value);
+        return std::string(text.data());
+    };
+    const std::string range = plain(low) + " to " + plain(high);
+    const auto check = [low, high, range](std::string& text) -> std::string {
+        double value = 0;
+        const char* const end = text.data() + text.size();
+        const auto read = std::from_chars(text.data(), end, value);
+        const bool good = read.ec == std::errc() && read.ptr == end && value >= low && value <= high;  // false for NaN
+        return good ? "" : "\"" + text + "\" is not a number from " + range;
+    };
+    return CLI::Validator(check, "from " + range);
+}
+
 fs::path asset_folder() {
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
@@ -47,7 +66,8 @@ fs::path asset_folder() {
 fs::path face_path(const std::string& name) { return name == "default" ? asset_folder() / "face.glb" : fs::path(name); }
 
 void PoseOptions::add_to(CLI::App& command, bool with_settings) {
-    command.add_option("--set", sets, "Controls and their values, such as jawOpen=0.6,mouthSmileLeft=1; the others are 0");
+    command.add_option("--set", sets,
+                       "Controls and their values, such as jawOpen=0.6,mouthSmileLeft=1; the others are 0");
     command.add_flag("--defaults", defaults, "Start from the file's own weights instead of zero");
     if (with_settings) {
         command.add_option("--setting", settings, "Setting of an effect, such as deformation.method=passes");

@@ -24,6 +24,9 @@ struct Size {
 /// "960x540". Error: anything else, or a side that is not 1 to 16384.
 Result<Size> parse_size(const std::string& text);
 
+/// Holds an option to a finite number from `low` to `high`. CLI11's own range lets NaN pass.
+CLI::Validator number_from(double low, double high);
+
 /// The face file that a user means: "default" is the one that this program ships.
 std::filesystem::path face_path(const std::string& name);
 /// Folder of what the program ships, beside the build or the installation; empty when there is none.

@@ -7,6 +7,7 @@
 
 #include "runtime/offscreen.h"
 #include "runtime/output_file.h"
+#include "tools/blush/interrupt.h"
 #include "tools/blush/options.h"
 #include "tools/blush/playback.h"
 #include "tools/blush/progress.h"
@@ -18,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double most_seconds = 1e6;  // eleven days: a slip of the finger
+
 struct Options {
     std::string face, performance, output, contact_sheet, size = "720x720";
     PoseOptions pose;
@@ -28,27 +31,30 @@ struct Options {
 };
 
 struct Range {
-    float from_seconds = 0, to_seconds = 0;
+    double from_seconds = 0, to_seconds = 0;
     std::size_t frames = 1;
 };
 
 Result<Range> range_of(const Options& options, float duration_seconds) {
-    Range range{options.from_seconds, options.to_seconds < 0 ? duration_seconds : options.to_seconds, 1};
-    // Asked this way round, a NaN is no part either.
-    if (!(range.from_seconds <= range.to_seconds) || !(range.from_seconds <= duration_seconds)) {
+    const float to_seconds = options.to_seconds < 0 ? duration_seconds : options.to_seconds;
+    Range range{static_cast<double>(options.from_seconds), static_cast<double>(to_seconds), 1};
+    if (!(range.to_seconds >= range.from_seconds && range.from_seconds <= static_cast<double>(duration_seconds))) {
         return Error{"--from " + std::to_string(range.from_seconds) + " --to " + std::to_string(range.to_seconds) +
                      ": not a part of a performance of " + std::to_string(duration_seconds) + " seconds"};
     }
-    const double frames = std::floor((static_cast<double>(range.to_seconds) - static_cast<double>(range.from_seconds)) * options.frames_a_second);
+    const double frames = std::floor((range.to_seconds - range.from_seconds) * options.frames_a_second);
     constexpr double most_frames = 1e6;  // more than nine hours at 30 a second: a slip of the finger
-    if (!(frames <= most_frames)) return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
+    if (!(frames <= most_frames))
+        return Error{"that would be " + std::to_string(frames) + " frames; a million is the most"};
     range.frames = static_cast<std::size_t>(frames) + 1;
     return range;
 }
 
-/// "frames/%05d.png" with a number; the pattern must hold one such place and nothing else that begins with %.
+/// "frames/%05d.png" with a number; the pattern must hold one such place, in the file's name and not in a folder's, and
+/// nothing else that begins with %.
 std::optional<std::string> numbered(const std::string& pattern, std::size_t number) {
     const std::size_t percent = pattern.find('%');
+    if (pattern.find('/', std::min(percent, pattern.size())) != std::string::npos) return std::nullopt;
     if (percent == std::string::npos || pattern.find('%', percent + 1) != std::string::npos) return std::nullopt;
     const std::size_t end = pattern.find_first_not_of("0123456789", percent + 1);
     if (end == std::string::npos || pattern[end] != 'd' || end > percent + 3) return std::nullopt;
@@ -91,8 +97,13 @@ Status write_frames(FrameSource& source, const Options& options, const Range& ra
     const bool video = fs::path(options.output).extension() == ".mp4" || fs::path(options.output).extension() == ".gif";
     Progress progress("frames", range.frames);
     const auto each = [&](const std::function<Status(std::size_t, const Image&)>& keep) -> Status {
+        const Interruptible interruptible;
         for (std::size_t f = 0; f < range.frames; ++f) {
-            const double time = static_cast<double>(range.from_seconds) + static_cast<double>(f) / options.frames_a_second;
+            if (interrupted()) {
+                return Error{options.output + ": stopped after " + std::to_string(f) + " of " +
+                             std::to_string(range.frames) + " frames"};
+            }
+            const double time = range.from_seconds + static_cast<double>(f) / options.frames_a_second;
             const Result<Image> image = source.frame_at(time);
             if (!image) return image.error();
             if (Status kept = keep(f, *image); !kept) return kept;
@@ -101,7 +112,8 @@ Status write_frames(FrameSource& source, const Options& options, const Range& ra
         return Done{};
     };
     if (!video) {
-        return each([&](std::size_t f, const Image& image) { return write_image(*numbered(options.output, f), image); });
+        return each(
+            [&](std::size_t f, const Image& image) { return write_image(*numbered(options.output, f), image); });
     }
     return write_beside(options.output, [&](const fs::path& beside) -> Status {
         const Result<Size> size = parse_size(options.size);
@@ -112,15 +124,40 @@ Status write_frames(FrameSource& source, const Options& options, const Range& ra
     });
 }
 
+constexpr std::uint32_t sheet_columns = 4, sheet_rows = 2;
+
+/// Checks before anything is drawn that a contact sheet can be written.
+Status check_contact_sheet(const Options& options, Size frame) {
+    const std::string place = "--contact-sheet " + options.contact_sheet;
+    if (fs::path(options.output).extension() == ".exr") {
+        return Error{"--contact-sheet goes with pictures for a display, not with .exr"};
+    }
+    if (fs::path(options.contact_sheet).extension() != ".png") return Error{place + ": a contact sheet is a .png"};
+    constexpr std::uint32_t largest_side = 16'384;  // as of a frame
+    if (frame.width > largest_side / sheet_columns || frame.height > largest_side / sheet_rows) {
+        return Error{place + ": its moments may have " + std::to_string(largest_side / sheet_columns) + "x" +
+                     std::to_string(largest_side / sheet_rows) + " pixels at most; --size says " + options.size};
+    }
+    std::error_code failed;
+    const fs::path folder = fs::path(options.contact_sheet).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, failed)) {
+        return Error{options.contact_sheet + ": cannot be written: the folder " + folder.string() + " does not exist"};
+    }
+    if (fs::is_directory(options.contact_sheet, failed)) {
+        return Error{options.contact_sheet + ": cannot be written: it is a folder"};
+    }
+    return Done{};
+}
+
 /// Eight moments of the range, two rows of four.
 Status write_contact_sheet(FrameSource& source, const Options& options, const Range& range) {
-    constexpr std::uint32_t columns = 4, rows = 2;
+    constexpr std::uint32_t columns = sheet_columns, rows = sheet_rows;
     Image sheet;
     for (std::uint32_t moment = 0; moment < columns * rows; ++moment) {
         // The middles of eight equal parts: the ends of a performance are mostly neutral.
         const double share = (moment + 0.5) / (columns * rows);
         const Result<Image> image =
-            source.frame_at(static_cast<double>(range.from_seconds) + share * (static_cast<double>(range.to_seconds) - static_cast<double>(range.from_seconds)));
+            source.frame_at(range.from_seconds + share * (range.to_seconds - range.from_seconds));
         if (!image) return image.error();
         if (sheet.bytes.empty()) {
             sheet.width = columns * image->width;
@@ -128,7 +165,8 @@ Status write_contact_sheet(FrameSource& source, const Options& options, const Ra
             sheet.channels = 4;
             sheet.bytes.resize(std::size_t{sheet.width} * sheet.height * 4);
         }
-        const std::size_t left = std::size_t{moment % columns} * image->width, top = std::size_t{moment / columns} * image->height;
+        const std::size_t left = std::size_t{moment % columns} * image->width,
+                          top = std::size_t{moment / columns} * image->height;
         for (std::size_t y = 0; y < image->height; ++y) {
             std::copy_n(image->bytes.begin() + static_cast<std::ptrdiff_t>(y * image->width * 4), image->width * 4,
                         sheet.bytes.begin() + static_cast<std::ptrdiff_t>(((top + y) * sheet.width + left) * 4));
@@ -137,8 +175,20 @@ Status write_contact_sheet(FrameSource& source, const Options& options, const Ra
     return write_image(options.contact_sheet, sheet);
 }
 
+/// A folder made for frames, removed again when nothing was written into it.
+struct NewFolder {
+    fs::path path;
+    NewFolder() = default;
+    NewFolder(const NewFolder&) = delete;
+    NewFolder& operator=(const NewFolder&) = delete;
+    ~NewFolder() {
+        std::error_code not_empty;
+        if (!path.empty()) fs::remove(path, not_empty);
+    }
+};
+
 /// Checks what can be checked of the output before anything is drawn. Without ffmpeg a video becomes a sequence.
-Status settle_output(Options& options) {
+Status settle_output(Options& options, NewFolder& new_folder) {
     const fs::path output = options.output;
     const bool video = output.extension() == ".mp4" || output.extension() == ".gif";
     if (video && !have_ffmpeg()) {
@@ -147,13 +197,17 @@ Status settle_output(Options& options) {
                   << "/%05d.png instead of " << options.output << "\n";
         options.output = (folder / "%05d.png").string();
     } else if (!video && !numbered(options.output, 0)) {
-        return Error{"-o " + options.output + ": not a .mp4 or .gif, nor a numbered picture like frames/%05d.png or .exr"};
+        return Error{"-o " + options.output +
+                     ": not a .mp4 or .gif, nor a numbered picture like frames/%05d.png or .exr"};
     }
     if (!video || !have_ffmpeg()) {
         std::error_code failed;
         const fs::path folder = fs::path(options.output).parent_path();
-        if (!folder.empty() && !fs::is_directory(folder, failed) && !fs::create_directory(folder, failed)) {
-            return Error{options.output + ": cannot be written: the folder " + folder.string() + " cannot be made"};
+        if (!folder.empty() && !fs::is_directory(folder, failed)) {
+            if (!fs::create_directory(folder, failed)) {
+                return Error{options.output + ": cannot be written: the folder " + folder.string() + " cannot be made"};
+            }
+            new_folder.path = folder;
         }
     }
     return Done{};
@@ -171,8 +225,12 @@ int play_to_files(Options options) {
     report_matches(playback.performance(), character.face());
     const Result<Range> range = range_of(options, playback.performance().duration_seconds());
     if (!range) return fail(range.error());
+    if (!options.contact_sheet.empty()) {
+        if (Status good = check_contact_sheet(options, *size); !good) return fail(good.error());
+    }
+    NewFolder new_folder;
     if (!options.output.empty()) {
-        if (Status settled = settle_output(options); !settled) return fail(settled.error());
+        if (Status settled = settle_output(options, new_folder); !settled) return fail(settled.error());
     }
 
     const bool linear = fs::path(options.output).extension() == ".exr";
@@ -185,7 +243,6 @@ int play_to_files(Options options) {
         std::cout << options.output << ": " << range->frames << " frames of " << options.size << "\n";
     }
     if (!options.contact_sheet.empty()) {
-        if (linear) return fail({"--contact-sheet goes with pictures for a display, not with .exr"});
         if (Status written = write_contact_sheet(source, options, *range); !written) return fail(written.error());
         std::cout << options.contact_sheet << ": eight moments\n";
     }
@@ -201,17 +258,21 @@ void add_play(CLI::App& app, int& exit_status) {
     command->add_option("--performance", options->performance,
                         "A Live Link Face .csv, a .json (docs/performance_format.md), an animation of the file or a "
                         "shipped one by name; without it, the file's own animations");
-    command->add_option("--fps", options->frames_a_second, "Frames a second")->check(CLI::Range(0.01, 1000.0))->capture_default_str();
-    command->add_option("--from", options->from_seconds, "Start, seconds")->check(CLI::NonNegativeNumber);
-    command->add_option("--to", options->to_seconds, "End, seconds")->check(CLI::NonNegativeNumber);
+    command->add_option("--fps", options->frames_a_second, "Frames a second")
+        ->check(number_from(0.01, 1000))
+        ->capture_default_str();
+    command->add_option("--from", options->from_seconds, "Start, seconds")->check(number_from(0, most_seconds));
+    command->add_option("--to", options->to_seconds, "End, seconds")->check(number_from(0, most_seconds));
     command->add_option("--size", options->size, "Width and height in pixels")->capture_default_str();
-    command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left");
-    command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees");
+    command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left")
+        ->check(number_from(-360, 360));
+    command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
     options->pose.add_to(*command);
     command->add_option("-o,--output", options->output, "out.mp4, out.gif, frames/%05d.png or frames/%05d.exr");
     command->add_option("--contact-sheet", options->contact_sheet, "A picture of eight moments");
     command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
-    command->add_option("--viewer-frames", options->viewer_frames, "Close the window after that many frames")->group("");
+    command->add_option("--viewer-frames", options->viewer_frames, "Close the window after that many frames")
+        ->group("");
     command->callback([options, &exit_status] {
         if (!options->output.empty() || !options->contact_sheet.empty()) {
             exit_status = play_to_files(*options);

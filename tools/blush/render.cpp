@@ -51,9 +51,10 @@ void add_render(CLI::App& app, int& exit_status) {
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
     options->pose.add_to(*command);
     command->add_option("--size", options->size, "Width and height in pixels")->capture_default_str();
-    command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left");
-    command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees");
-    command->add_option("--exposure", options->exposure, "Factor on radiance")->check(CLI::Range(1e-4, 1e4));
+    command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left")
+        ->check(number_from(-360, 360));
+    command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
+    command->add_option("--exposure", options->exposure, "Factor on radiance")->check(number_from(1e-4, 1e4));
     command->add_option("-o,--output", options->output, "A .png (sRGB) or .exr (linear radiance) file")->required();
     command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
     command->add_flag("--force-effects", options->force_effects, "Run effects that could be left out, too");

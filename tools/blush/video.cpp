@@ -3,13 +3,16 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,10 +31,16 @@ bool have_ffmpeg() {
 
 Result<VideoWriter> VideoWriter::start(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
                                        double frames_a_second) {
-    std::vector<std::string> words = {"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba", "-s",
-                                      std::to_string(width) + "x" + std::to_string(height), "-r",
-                                      std::to_string(frames_a_second), "-i", "pipe:0"};
-    const auto add_words = [&](std::initializer_list<const char*> more) { words.insert(words.end(), more.begin(), more.end()); };
+    std::vector<std::string> words = {"ffmpeg",    "-y",
+                                      "-loglevel", "error",
+                                      "-f",        "rawvideo",
+                                      "-pix_fmt",  "rgba",
+                                      "-s",        std::to_string(width) + "x" + std::to_string(height),
+                                      "-r",        std::to_string(frames_a_second),
+                                      "-i",        "pipe:0"};
+    const auto add_words = [&](std::initializer_list<const char*> more) {
+        words.insert(words.end(), more.begin(), more.end());
+    };
     if (path.extension() == ".gif") {
         // One palette from all frames, so that skin does not flicker from frame to frame.
         add_words({"-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer"});
@@ -49,22 +58,28 @@ Result<VideoWriter> VideoWriter::start(const std::filesystem::path& path, std::u
 
     std::array<int, 2> pipe_ends{};
     if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return Error{"ffmpeg cannot be started: no pipe"};
+    // Kept in memory: its first line becomes part of our one sentence.
+    const int messages = ::memfd_create("ffmpeg", MFD_CLOEXEC);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[0], STDIN_FILENO);
+    if (messages >= 0) posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
     pid_t process = -1;
     const int failed = ::posix_spawnp(&process, "ffmpeg", &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(pipe_ends[0]);
     if (failed != 0) {
         ::close(pipe_ends[1]);
+        ::close(messages);
         return Error{"ffmpeg cannot be started"};
     }
-    return VideoWriter(process, pipe_ends[1]);
+    return VideoWriter(process, pipe_ends[1], messages);
 }
 
 VideoWriter::VideoWriter(VideoWriter&& other) noexcept
-    : process_(std::exchange(other.process_, -1)), pipe_(std::exchange(other.pipe_, -1)) {}
+    : process_(std::exchange(other.process_, -1)),
+      pipe_(std::exchange(other.pipe_, -1)),
+      messages_(std::exchange(other.messages_, -1)) {}
 
 VideoWriter::~VideoWriter() {
     if (process_ < 0) return;
@@ -76,7 +91,10 @@ Status VideoWriter::add(const Image& frame) {
     std::size_t at = 0;
     while (at < frame.bytes.size()) {
         const ssize_t wrote = ::write(pipe_, frame.bytes.data() + at, frame.bytes.size() - at);
-        if (wrote <= 0) return Error{"ffmpeg stopped before the last frame"};
+        if (wrote <= 0) {
+            const Status ended = wait();
+            return ended ? Error{"ffmpeg stopped before the last frame"} : ended.error();
+        }
         at += static_cast<std::size_t>(wrote);
     }
     return Done{};
@@ -86,8 +104,13 @@ Status VideoWriter::wait() {
     ::close(std::exchange(pipe_, -1));
     int status = 0;
     ::waitpid(std::exchange(process_, -1), &status, 0);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return Error{"ffmpeg failed; its own message stands above"};
-    return Done{};
+    std::array<char, 400> text{};
+    const ssize_t length = ::pread(messages_, text.data(), text.size(), 0);
+    ::close(std::exchange(messages_, -1));
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return Done{};
+    const std::string_view said(text.data(), static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
+    const std::string_view line = said.substr(0, said.find('\n'));
+    return Error{"ffmpeg failed" + (line.empty() ? std::string() : ": " + std::string(line))};
 }
 
 Status VideoWriter::finish() { return wait(); }

@@ -30,10 +30,11 @@ public:
     Status finish();
 
 private:
-    VideoWriter(pid_t process, int pipe) : process_(process), pipe_(pipe) {}
+    VideoWriter(pid_t process, int pipe, int messages) : process_(process), pipe_(pipe), messages_(messages) {}
     Status wait();
     pid_t process_ = -1;
     int pipe_ = -1;
+    int messages_ = -1;  ///< what ffmpeg writes to standard error
 };
 
 }  // namespace blush::tool
