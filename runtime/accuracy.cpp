@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "rig/head_and_eyes.h"
 #include "runtime/effect.h"
@@ -11,7 +12,7 @@ namespace {
 
 /// Value at a share (0 to 1) of the sorted values, the nearest rank.
 double quantile(std::vector<double> values, double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    const auto rank = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
     std::ranges::nth_element(values, values.begin() + rank);
     return values[static_cast<std::size_t>(rank)];
 }
