@@ -18,7 +18,9 @@ int main(int argc, char** argv) try {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        if (error.get_exit_code() == 0) return app.exit(error);  // --help
+        std::fprintf(stderr, "make_face: %s\n", error.what());
+        return 2;
     }
     // An unwritable path is found out before the seconds of work.
     if (const blush::Status status = blush::make_face::check_writable(path); !status) {
