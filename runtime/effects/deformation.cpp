@@ -26,7 +26,7 @@ Need need(const CharacterState& state) {
     if (state.facts.deformation_current) {
         return {.on = false, .reason = "weights and settings are those of an earlier frame, whose result still stands"};
     }
-    return {.on = true, .reason = "targets have weights other than zero, and they changed"};
+    return {.on = true, .reason = "some target has a weight other than zero"};
 }
 
 void declare(CharacterState& state) {

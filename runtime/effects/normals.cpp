@@ -21,7 +21,7 @@ constexpr std::array<Setting, 1> settings = {{
 Need need(const CharacterState& state) {
     if (!state.facts.any_turned_normals) {
         return {.on = false,
-                .reason = "every target that moves the surface brings its own normals, which the deformation adds up",
+                .reason = "the deformation adds up all normals: each target that moves the surface brings its own",
                 .can_be_forced = false};
     }
     if (state.facts.active_targets == 0) {

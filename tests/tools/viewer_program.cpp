@@ -1,29 +1,15 @@
 /// The viewer as a user starts it: the program itself, on a display of its own.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <string>
+
+#include "tests/tools/run_program.h"
 
 namespace {
 
-struct Ran {
-    int exit_status = -1;
-    std::string output;  ///< standard output and standard error
-};
-
-Ran run(const std::string& command) {
-    Ran ran;
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return ran;
-    char part[4096];
-    while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) ran.output.append(part, size);
-    const int status = pclose(pipe);
-    if (WIFEXITED(status)) ran.exit_status = WEXITSTATUS(status);
-    return ran;
-}
+using blush::test::Ran;
+using blush::test::run;
 
 const std::string program = "'" BLUSH_PROGRAM "' ";
 // xvfb-run wants xauth, which Debian's xvfb only recommends.
@@ -34,10 +20,15 @@ const std::string no_display = "env -u DISPLAY -u WAYLAND_DISPLAY ";
 TEST(Viewer, DrawsFiveFramesThatAreFinite) {
     if (!have_virtual_display()) GTEST_SKIP() << "no xvfb-run and xauth here (Debian: xvfb, xauth)";
     const Ran ran = run(virtual_display + program + "play default --viewer-frames 5 --check-finite --size 256x256");
+<<<<<<< HEAD
     EXPECT_EQ(ran.exit_status, 0) << ran.output;
     // The panel stands beside the picture: 320 units wide on a display of usual density.
     EXPECT_NE(ran.output.find("5 frames of 576x256\n"), std::string::npos) << ran.output;
     EXPECT_EQ(ran.output.find("blush:"), std::string::npos) << ran.output;
+=======
+    EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+    EXPECT_EQ(ran.errors.find("blush:"), std::string::npos) << ran.errors;
+>>>>>>> cli
 }
 
 TEST(Viewer, SaysThatTheDisplayHasNoSuchOpenGl) {
@@ -52,29 +43,29 @@ TEST(Viewer, SaysThatThereIsNoDisplay) {
     const Ran ran = run(no_display + program + "play default");
     EXPECT_EQ(ran.exit_status, 2);
     EXPECT_EQ(
-        ran.output,
+        ran.errors,
         "blush: there is no display for a window (DISPLAY and WAYLAND_DISPLAY are not set); -o plays into files\n");
 }
 
 TEST(Viewer, SaysThatADisplayCannotBeOpened) {
     const Ran ran = run(no_display + "DISPLAY=:nobody " + program + "play default");
     EXPECT_EQ(ran.exit_status, 2);
-    EXPECT_EQ(ran.output.find("blush: no window can be opened here: "), 0U) << ran.output;
-    EXPECT_EQ(ran.output.find('\n'), ran.output.size() - 1) << "one sentence: " << ran.output;
+    EXPECT_EQ(ran.errors.find("blush: no window can be opened here: "), 0U) << ran.errors;
+    EXPECT_EQ(ran.errors.find('\n'), ran.errors.size() - 1) << "one sentence: " << ran.errors;
 }
 
 TEST(Viewer, NamesABadRangeBeforeItOpensAWindow) {
     // A display that cannot be opened shows that none was asked for.
     const Ran ran = run(no_display + "DISPLAY=:nobody " + program + "play default --from 3 --to 2");
     EXPECT_EQ(ran.exit_status, 2);
-    EXPECT_EQ(ran.output.find("blush: --from 3.000000 --to 2.000000: not a part of a performance of "), 0U)
-        << ran.output;
+    EXPECT_EQ(ran.errors.find("blush: --from 3.000000 --to 2.000000: not a part of a performance of "), 0U)
+        << ran.errors;
 }
 
 TEST(Viewer, NamesABadFace) {
     const Ran ran = run(no_display + "DISPLAY=:nobody " + program + "play nothing.glb");
     EXPECT_EQ(ran.exit_status, 2);
-    EXPECT_EQ(ran.output.find("blush: nothing.glb: "), 0U) << ran.output;
+    EXPECT_EQ(ran.errors.find("blush: nothing.glb: "), 0U) << ran.errors;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "runtime/accuracy.h"
 #include "runtime/face_file.h"
 #include "runtime/output_file.h"
+#include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"
 
 namespace blush::tool {
@@ -162,6 +163,10 @@ std::string page_of(const AccuracyReport& report) {
 int accuracy(const Options& options) {
     const Result<Face> face = load_face(face_path(options.face));
     if (!face) return fail(face.error());
+    // Before the minutes of measuring.
+    const std::filesystem::path folder = options.output;
+    NewFolder new_folder;
+    if (Status made = new_folder.make(folder); !made) return fail(made.error());
     Result<Device> device = Device::headless(false);
     if (!device) return fail(device.error());
     AccuracyOptions measure{options.effect, options.quick, options.millimetres_a_unit, {}};
@@ -169,11 +174,6 @@ int accuracy(const Options& options) {
     const Result<AccuracyReport> report = measure_accuracy(*device, *face, measure);
     if (!report) return fail({"--effect: " + report.error().message});
 
-    const std::filesystem::path folder = options.output;
-    std::error_code failed;
-    if (!std::filesystem::is_directory(folder, failed) && !std::filesystem::create_directories(folder, failed)) {
-        return fail({options.output + ": cannot be written: the folder cannot be made"});
-    }
     const std::string json = json_of(*report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     if (Status written = write_file(folder / "accuracy.json", json); !written) return fail(written.error());
     if (Status written = write_file(folder / "index.html", page_of(*report)); !written) return fail(written.error());

@@ -8,6 +8,7 @@
 #include "runtime/offscreen.h"
 #include "runtime/output_file.h"
 #include "tools/blush/interrupt.h"
+#include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"
 #include "tools/blush/playback.h"
 #include "tools/blush/progress.h"
@@ -175,40 +176,24 @@ Status write_contact_sheet(FrameSource& source, const Options& options, const Ra
     return write_image(options.contact_sheet, sheet);
 }
 
-/// A folder made for frames, removed again when nothing was written into it.
-struct NewFolder {
-    fs::path path;
-    NewFolder() = default;
-    NewFolder(const NewFolder&) = delete;
-    NewFolder& operator=(const NewFolder&) = delete;
-    ~NewFolder() {
-        std::error_code not_empty;
-        if (!path.empty()) fs::remove(path, not_empty);
-    }
-};
-
 /// Checks what can be checked of the output before anything is drawn. Without ffmpeg a video becomes a sequence.
 Status settle_output(Options& options, NewFolder& new_folder) {
     const fs::path output = options.output;
     const bool video = output.extension() == ".mp4" || output.extension() == ".gif";
-    if (video && !have_ffmpeg()) {
-        const fs::path folder = output.parent_path() / output.stem();
-        std::cerr << "note: there is no ffmpeg program here (Debian: ffmpeg), so the frames go to " << folder.string()
-                  << "/%05d.png instead of " << options.output << "\n";
-        options.output = (folder / "%05d.png").string();
-    } else if (!video && !numbered(options.output, 0)) {
+    if (video && have_ffmpeg()) return Done{};
+    if (video) {
+        options.output = (output.parent_path() / output.stem() / "%05d.png").string();
+    } else if (!numbered(options.output, 0)) {
         return Error{"-o " + options.output +
                      ": not a .mp4 or .gif, nor a numbered picture like frames/%05d.png or .exr"};
     }
-    if (!video || !have_ffmpeg()) {
-        std::error_code failed;
-        const fs::path folder = fs::path(options.output).parent_path();
-        if (!folder.empty() && !fs::is_directory(folder, failed)) {
-            if (!fs::create_directory(folder, failed)) {
-                return Error{options.output + ": cannot be written: the folder " + folder.string() + " cannot be made"};
-            }
-            new_folder.path = folder;
-        }
+    const fs::path folder = fs::path(options.output).parent_path();
+    if (!folder.empty()) {
+        if (Status made = new_folder.make(folder); !made) return made;
+    }
+    if (video) {
+        std::cerr << "note: there is no ffmpeg program here (Debian: ffmpeg), so the frames go to " << options.output
+                  << " instead of " << output.string() << "\n";
     }
     return Done{};
 }

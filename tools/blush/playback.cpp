@@ -40,7 +40,9 @@ Result<Performance> find_performance(const Face& face, const std::string& name) 
     if (wanted.find('/') == std::string::npos && fs::exists(shipped, failed)) return load_performance(shipped);
     if (fs::exists(wanted, failed)) return load_performance(wanted);
     std::string known;
-    for (const Animation& animation : face.animations) known += ", " + animation.name;
+    for (const Animation& animation : face.animations) {
+        if (!animation.name.empty()) known += ", " + animation.name;
+    }
     known += shipped_names();
     return Error{"--performance " + wanted + ": neither a file, nor an animation of " + face.path +
                  ", nor shipped (there are: " + (known.empty() ? "none" : known.substr(2)) + ")"};
