@@ -7,6 +7,8 @@
 namespace blush {
 namespace {
 
+/// What a loader normalises in floats is off by a few rounding errors at most.
+constexpr float normalised_tolerance = 1e-4F;
 
 bool finite(float x) { return std::isfinite(x); }
 template <glm::length_t N>
@@ -21,7 +23,10 @@ template <class Range>
 bool all_finite(const Range& values) {
     return std::ranges::all_of(values, [](const auto& value) { return finite(value); });
 }
-bool is_unit(const glm::vec3& v) { return std::abs(glm::dot(v, v) - 1.0F) <= 2 * unit_length_tolerance; }
+bool is_unit(const glm::vec3& v) {
+    // A little room for the rounding of a loader that compares in double precision.
+    return std::abs(glm::length(v) - 1.0F) <= 1.001F * unit_length_tolerance;
+}
 
 /// Collects the first broken rule.
 class Validation {
@@ -72,7 +77,7 @@ private:
             const glm::vec4& w = face_.joint_weights[i];
             const float sum = w.x + w.y + w.z + w.w;
             const bool positive = glm::all(glm::greaterThanEqual(w, glm::vec4(0)));
-            require(positive && (w == glm::vec4(0) || std::abs(sum - 1) <= unit_length_tolerance), "joint_weights[", i,
+            require(positive && (w == glm::vec4(0) || std::abs(sum - 1) <= normalised_tolerance), "joint_weights[", i,
                     "]: they do not sum to 1");
         }
     }
@@ -126,7 +131,7 @@ private:
         require(n.skin >= -1 && n.skin < static_cast<std::int64_t>(face_.skins.size()), "nodes[", i,
                 "].skin: there is no such skin");
         const glm::vec4 q(n.rest.rotation.x, n.rest.rotation.y, n.rest.rotation.z, n.rest.rotation.w);
-        require(std::abs(glm::dot(q, q) - 1.0F) <= 2 * unit_length_tolerance, "nodes[", i,
+        require(std::abs(glm::dot(q, q) - 1.0F) <= 2 * normalised_tolerance, "nodes[", i,
                 "].rotation: it has not unit length");
         require(finite(n.rest.translation) && finite(n.rest.scale), "nodes[", i, "]: its transform is not finite");
         require(!n.matrix || finite(*n.matrix), "nodes[", i, "].matrix: it is not finite");

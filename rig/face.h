@@ -18,7 +18,7 @@
 
 namespace blush {
 
-/// How far from 1 the length of a "unit" normal, tangent or rotation may be. Files store them in 8 or 16 bits, or as their
+/// How far from 1 the length of a unit normal or tangent may be. Files store them in 8 or 16 bits, or as their
 /// exporter left them; so near to 1 their own values are kept, so that rest is what the file says to the bit.
 inline constexpr float unit_length_tolerance = 0.02F;
 
@@ -142,8 +142,9 @@ struct Face {
     // Vertices, all of one length.
     std::vector<glm::vec3> positions;  ///< mesh-local, in the file's units
     std::vector<glm::vec3> normals;    ///< unit length, within unit_length_tolerance
-    std::vector<glm::vec4> tangents;   ///< xyz unit length (same tolerance), w = +1 or -1 (bitangent = cross(n, t.xyz) * w)
-    std::vector<glm::vec2> uv0, uv1;   ///< (0, 0) where the file has none
+    std::vector<glm::vec4>
+        tangents;  ///< xyz unit length (same tolerance), w = +1 or -1 (bitangent = cross(n, t.xyz) * w)
+    std::vector<glm::vec2> uv0, uv1;  ///< (0, 0) where the file has none
 
     // One an entry a vertex if any mesh is skinned, else empty.
     std::vector<glm::u16vec4> joints;      ///< indices into Skin::joints

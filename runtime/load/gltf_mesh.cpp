@@ -134,7 +134,8 @@ void read_indices(GltfDocument& document, PrimitiveReader& reader, Primitive& pr
     primitive.index_count = static_cast<std::uint32_t>(list.size());
 }
 
-/// Unit vectors, as they are when they are near enough; those without length become zero, for fill_missing_attributes().
+/// Unit vectors, as they are when they are near enough; those without length become zero, for
+/// fill_missing_attributes().
 glm::vec3 unit_or_zero(glm::vec3 v) {
     const glm::dvec3 wide(v);
     const double length = std::sqrt(glm::dot(wide, wide));

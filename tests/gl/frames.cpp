@@ -147,7 +147,7 @@ TEST_F(Frames, ReportsWhatIsLeftOutAndWhy) {
     EXPECT_EQ(effect_of(report, "deformation").reason,
               "no target has a weight other than zero: the rest surface is drawn as it is");
     EXPECT_EQ(effect_of(report, "normals").reason,
-              "every target that moves the surface brings its own normals, which the deformation adds up");
+              "the deformation adds up all normals: each target that moves the surface brings its own");
     EXPECT_EQ(effect_of(report, "skinning").reason, "the face has no joints");
     EXPECT_EQ(report.triangles_drawn, character.face().indices.size() / 3);
 }

@@ -20,13 +20,15 @@ Result<Performance> find_performance(const Face& face, const std::string& name);
 /// standard error.
 void report_matches(const BoundPerformance& performance, const Face& face);
 
-/// Sets the character to the performance at a time. Controls that the performance does not drive keep `base`, nodes that
-/// it does not move rest.
+/// Sets the character to the performance at a time. Controls that the performance does not drive keep `base`, nodes
+/// that it does not move rest.
 class Playback {
 public:
     Playback(Character& character, BoundPerformance performance)
-        : character_(&character), performance_(std::move(performance)),
-          base_(character.controls().begin(), character.controls().end()), rest_(character.rig().rest_pose()) {}
+        : character_(&character),
+          performance_(std::move(performance)),
+          base_(character.controls().begin(), character.controls().end()),
+          rest_(character.rig().rest_pose()) {}
 
     const BoundPerformance& performance() const { return performance_; }
     void seek(float time_seconds);

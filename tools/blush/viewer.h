@@ -8,12 +8,12 @@ namespace blush::tool {
 
 struct ViewerOptions {
     std::string face;
-    std::string performance;     ///< as find_performance() takes it
+    std::string performance;  ///< as find_performance() takes it
     PoseOptions pose;
     std::uint32_t width = 960, height = 960;  ///< of the picture beside the panel, window coordinates
     float from_seconds = 0;
-    float to_seconds = -1;       ///< negative: to the end
-    double frames_a_second = 30; ///< of single steps
+    float to_seconds = -1;        ///< negative: to the end
+    double frames_a_second = 30;  ///< of single steps
     bool check_finite = false;
     /// Ends by itself after that many frames (for tests); 0: when the user closes the window.
     int frames = 0;
