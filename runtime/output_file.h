@@ -21,7 +21,7 @@ Status write_beside(const std::filesystem::path& path,
 Status write_file(const std::filesystem::path& path, std::string_view contents);
 
 /// Writes a picture through OpenImageIO: .png (8 bits), .exr (16-bit float, linear), .jpg and others it knows. RGBA and
-/// RGB images; the alpha of a .jpg is dropped.
+/// RGB images; alpha is dropped where the format has none.
 Status write_image(const std::filesystem::path& path, const Image& image);
 
 /// Writes a surface as .ply (ASCII) or .obj with nine significant digits, which give back every float.

@@ -50,16 +50,19 @@ Status write_image(const fs::path& path, const Image& image) {
     }
     return write_beside(path, [&](const fs::path& beside) -> Status {
         const bool bytes = !image.bytes.empty();
-        OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
-                             static_cast<int>(image.channels), bytes ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::HALF);
+        const bool drop_alpha = image.channels == 4 && output->supports("alpha") == 0;
+        const int channels = drop_alpha ? 3 : static_cast<int>(image.channels);
+        OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), channels,
+                             bytes ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::HALF);
         spec.attribute("oiio:ColorSpace", bytes ? "sRGB" : "Linear");
         // Without these two, the same picture written twice would differ.
         spec.attribute("DateTime", "");
         spec.attribute("Software", "blush");
         const auto refused = [&] { return Error{path.string() + ": cannot be written: " + output->geterror()}; };
         if (!output->open(beside.string(), spec)) return refused();
-        const bool written = bytes ? output->write_image(OIIO::TypeDesc::UINT8, image.bytes.data())
-                                   : output->write_image(OIIO::TypeDesc::FLOAT, image.floats.data());
+        const OIIO::stride_t pixel_bytes = static_cast<OIIO::stride_t>(image.channels * (bytes ? 1 : sizeof(float)));
+        const bool written = bytes ? output->write_image(OIIO::TypeDesc::UINT8, image.bytes.data(), pixel_bytes)
+                                   : output->write_image(OIIO::TypeDesc::FLOAT, image.floats.data(), pixel_bytes);
         if (!written || !output->close()) return refused();
         return Done{};
     });
