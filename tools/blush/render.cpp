@@ -23,7 +23,8 @@ int render(const Options& options) {
     if (!stage) return fail(stage.error());
     Character& character = (*stage)->character;
 
-    const bool linear = std::filesystem::path(options.output).extension() == ".exr";
+    const std::string ending = std::filesystem::path(options.output).extension().string();
+    const bool linear = ending == ".exr" || ending == ".hdr";
     Result<Offscreen> offscreen = Offscreen::create((*stage)->device, size->width, size->height,
                                                     linear ? Output::linear_hdr : Output::display_srgb);
     if (!offscreen) return fail(offscreen.error());
@@ -55,7 +56,7 @@ void add_render(CLI::App& app, int& exit_status) {
         ->check(number_from(-360, 360));
     command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
     command->add_option("--exposure", options->exposure, "Factor on radiance")->check(number_from(1e-4, 1e4));
-    command->add_option("-o,--output", options->output, "A .png (sRGB) or .exr (linear radiance) file")->required();
+    command->add_option("-o,--output", options->output, "A .png (sRGB) or .exr (linear radiance) file; .jpg, .tif and .hdr work too")->required();
     command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
     command->add_flag("--force-effects", options->force_effects, "Run effects that could be left out, too");
     command->callback([options, &exit_status] { exit_status = render(*options); });
