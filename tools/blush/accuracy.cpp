@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::string face = "default", effect, output;
-    bool quick = false;
+    bool quick = false, check_finite = false;
     double millimetres_a_unit = 0;
 };
 
@@ -173,6 +173,14 @@ int accuracy(const Options& options) {
     measure.progress = [](std::string_view study) { std::cerr << "measuring " << study << "\n"; };
     const Result<AccuracyReport> report = measure_accuracy(*device, *face, measure);
     if (!report) return fail({"--effect: " + report.error().message});
+    for (const MeasuredStudy& study : report->studies) {
+        for (const MeasuredVariant& variant : study.variants) {
+            // Errors are sums over every value of a variant's output, so one value that is not finite shows here.
+            if (!options.check_finite || std::isfinite(variant.error_mean + variant.error_worst)) continue;
+            return fail({"--check-finite: " + study.effect + ", " + study.name + ": \"" + variant.label +
+                         "\" has an error that is not finite"});
+        }
+    }
 
     const std::string json = json_of(*report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     if (Status written = write_file(folder / "accuracy.json", json); !written) return fail(written.error());
@@ -198,6 +206,7 @@ void add_accuracy(CLI::App& app, int& exit_status) {
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->capture_default_str();
     command->add_option("--effect", options->effect, "One effect by name");
     command->add_flag("--quick", options->quick, "Fewer rounds and the largest study of each effect only");
+    command->add_flag("--check-finite", options->check_finite, "Fail on any error that is not finite");
     command
         ->add_option("--millimetres-per-unit", options->millimetres_a_unit,
                      "Scale of the face; without it its largest extent is taken as 240 mm")

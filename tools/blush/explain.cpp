@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
     std::string face;
     PoseOptions pose;
-    bool json = false;
+    bool json = false, check_finite = false;
 };
 
 Json describe(const Face& face, const FrameReport& report) {
@@ -75,7 +75,10 @@ int explain(const Options& options) {
     if (!offscreen) return fail(offscreen.error());
     View view = offscreen->view();
     view.camera = character.framing(1).camera(1);
-    const Json json = describe(character.face(), character.draw(view));
+    view.check_finite = options.check_finite;
+    const FrameReport& report = character.draw(view);
+    if (const int found = report_not_finite(report); found != 0) return found;
+    const Json json = describe(character.face(), report);
     if (options.json) {
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
     } else {
@@ -93,6 +96,7 @@ void add_explain(CLI::App& app, int& exit_status) {
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
     options->pose.add_to(*command);
     command->add_flag("--json", options->json, "Print JSON");
+    command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
     command->callback([options, &exit_status] { exit_status = explain(*options); });
 }
 

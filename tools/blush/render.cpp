@@ -56,7 +56,10 @@ void add_render(CLI::App& app, int& exit_status) {
         ->check(number_from(-360, 360));
     command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
     command->add_option("--exposure", options->exposure, "Factor on radiance")->check(number_from(1e-4, 1e4));
-    command->add_option("-o,--output", options->output, "A .png (sRGB) or .exr (linear radiance) file; .jpg, .tif and .hdr work too")->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "A .png (sRGB) or .exr (linear radiance) file; .jpg, .tif and .hdr work too")
+        ->required();
     command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
     command->add_flag("--force-effects", options->force_effects, "Run effects that could be left out, too");
     command->callback([options, &exit_status] { exit_status = render(*options); });
