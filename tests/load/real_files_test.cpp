@@ -79,7 +79,8 @@ TEST(RealFiles, CompressedFacecapAgreesWithThePlainOneWithinAThousandth) {
             worst_position =
                 std::max(worst_position, glm::distance(from_quantised * glm::vec4(compressed->positions[v], 1),
                                                        from_plain * glm::vec4(plain->positions[v], 1)));
-            worst_normal_cosine = std::min(worst_normal_cosine, glm::dot(glm::normalize(compressed->normals[v]), glm::normalize(plain->normals[v])));
+            worst_normal_cosine = std::min(worst_normal_cosine, glm::dot(glm::normalize(compressed->normals[v]),
+                                                                         glm::normalize(plain->normals[v])));
         }
         for (std::size_t t = 0; t < plain->targets.size(); ++t) {
             EXPECT_EQ(compressed->targets[t].name, plain->targets[t].name);
