@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <ranges>
 
 namespace blush {
 
@@ -59,7 +58,8 @@ void FrameGraph::compile() {
 
     // Backwards: a pass is live when something further on wants what it writes. A plain write satisfies the want, so
     // that whatever wrote the resource before it is not wanted for it.
-    for (FramePass& pass : std::views::reverse(passes_)) {
+    for (std::size_t index = passes_.size(); index-- > 0;) {
+        FramePass& pass = passes_[index];
         const auto uses = std::span(uses_).subspan(pass.first_use, pass.use_count);
         pass.live = std::ranges::any_of(uses, [&](const Use& use) {
             return use.access != Access::read && wanted_[static_cast<std::uint32_t>(use.resource)] != 0;
