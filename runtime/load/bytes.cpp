@@ -56,7 +56,7 @@ Bytes decode_base64(std::string_view text, std::string_view place) {
     std::uint32_t pending = 0;
     int pending_bits = 0;
     for (const char c : text) {
-        const int value = values[static_cast<unsigned char>(c)];
+        const std::int32_t value{values[static_cast<unsigned char>(c)]};  // -1: none of the alphabet
         if (value < 0) refuse(place, "the base64 text has a character that does not belong to it");
         pending = (pending << 6) | static_cast<std::uint32_t>(value);
         pending_bits += 6;

@@ -108,6 +108,7 @@ Result<Header> read_header(std::string_view line, const std::string& file) {
     const std::vector<std::string> shapes(arkit_names.begin(), arkit_names.end());
     const NameIndex shape_index(shapes);
     std::vector<std::string> angles;
+    angles.reserve(std::size(angle_columns));
     for (const AngleColumn& angle : angle_columns) angles.emplace_back(angle.name);
     const NameIndex angle_index(angles);
 
