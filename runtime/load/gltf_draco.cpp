@@ -144,7 +144,7 @@ DracoGeometry decode_draco(GltfDocument& document, const tinygltf::Primitive& pr
     if (!decoded.ok())
         refuse(place, "the compressed bytes are not valid (" + decoded.status().error_msg_string() + ")");
     const draco::Mesh& mesh = *decoded.value();
-    if (mesh.num_faces() * 3 != index_count || mesh.num_points() != vertex_count) {
+    if (std::size_t{mesh.num_faces()} * 3 != index_count || mesh.num_points() != vertex_count) {
         refuse(place, "the Draco data has " + std::to_string(mesh.num_points()) +
                           " vertices, but the accessor of POSITION says " + std::to_string(vertex_count));
     }
