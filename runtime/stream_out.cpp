@@ -98,6 +98,11 @@ Status StreamOut::build(std::uint64_t largest_block_bytes) {
         joint_indices_ = gl::make_buffer<glm::u16vec4>(face.joints);
         joint_weights_ = gl::make_buffer<glm::vec4>(face.joint_weights);
         skinned_ = make_surface(0);
+        std::uint32_t first_joint = 0;
+        for (const Skin& part : face.skins) {
+            first_joint_of_skin_.push_back(first_joint);
+            first_joint += static_cast<std::uint32_t>(part.joints.size());
+        }
     }
     return Done{};
 }
@@ -377,17 +382,11 @@ void StreamOut::skin(const SurfaceBuffers& from, std::span<const glm::mat4> skin
     source(vertex_array_, BLUSH_JOINT_WEIGHTS_ATTRIBUTE, joint_weights_, vec4_bytes);
     bind_source(from);
 
-    std::vector<GLuint> first_joint_of_skin;
-    GLuint first_joint = 0;
-    for (const Skin& part : face_->skins) {
-        first_joint_of_skin.push_back(first_joint);
-        first_joint += static_cast<GLuint>(part.joints.size());
-    }
     for (const Primitive& primitive : face_->primitives) {
         const auto node = std::ranges::find_if(face_->nodes, [&](const Node& candidate) {
             return candidate.mesh == static_cast<std::int32_t>(primitive.mesh) && candidate.skin >= 0;
         });
-        if (node != face_->nodes.end()) glUniform1ui(0, first_joint_of_skin[static_cast<std::size_t>(node->skin)]);
+        if (node != face_->nodes.end()) glUniform1ui(0, first_joint_of_skin_[static_cast<std::size_t>(node->skin)]);
         // A primitive without a skin has zero joint weights and passes through.
         stream({primitive.first_vertex, primitive.vertex_count, false}, skinned_);
     }

@@ -102,6 +102,7 @@ private:
     gl::Buffer first_triangle_, triangles_, rest_sums_;
     gl::Buffer joints_, joint_indices_, joint_weights_;
     std::size_t joints_capacity_ = 0;
+    std::vector<std::uint32_t> first_joint_of_skin_;
 
     gl::Program sparse_program_, pass_program_, normals_program_, skin_program_;
     gl::VertexArray vertex_array_, normals_vertex_array_;

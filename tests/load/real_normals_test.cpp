@@ -61,7 +61,7 @@ TEST_P(RealNormals, AgreeWithTheDeformedMeshAtHalfAndFullWeight) {
         EXPECT_LT(worst, 0.05);
     } else {
         // NORMAL deltas are a straight line between two directions, and hold what their author's smoothing gave.
-        // The blink is the furthest off (lids roll over), at 2.8 degrees in the mean; the median target is at 0.8.
+        // The blink is the furthest off (lids roll over), at 2.8 degrees in the mean over its vertices.
         EXPECT_LT(worst_mean, 3.0);
         EXPECT_LT(worst_share, 0.13);
     }
