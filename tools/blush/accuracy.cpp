@@ -131,7 +131,8 @@ std::string page_of(const AccuracyReport& report) {
         "body{font:16px/1.45 sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}\n"
         "table{border-collapse:collapse;margin:.5rem 0 2rem}td,th{padding:.25rem .7rem;text-align:right;"
         "border-bottom:1px solid "
-        "#ddd;white-space:nowrap}td:last-child{white-space:normal}td:nth-child(2),th:nth-child(2),td:last-child,th:last-child{text-align:left}\n"
+        "#ddd;white-space:nowrap}td:last-child{white-space:normal}td:nth-child(2),th:nth-child(2),td:last-child,th:"
+        "last-child{text-align:left}\n"
         "svg{width:100%;max-width:40rem;font-size:12px;fill:#444}.frame{fill:none;stroke:#bbb}"
         "circle.best{fill:#a3283c}circle.beaten{fill:#aaa}line.best{stroke:#a3283c}line.beaten{stroke:#aaa}"
         "line{stroke-width:2}\n</style>\n<h1>What accuracy costs in time</h1>\n<p>Face: " +
