@@ -24,12 +24,15 @@ struct Angles {
     float roll_radians = 0;   ///< about world +Z; positive tilts the top of the head to the face's own right (-X)
 };
 
-/// Everything that a frame needs to know of what the face does. Geometry, and later wrinkles and colour, read this
-/// alone.
+/// Everything that a frame needs to know of what the face does. Geometry, wrinkles and colour read this alone.
 struct Pose {
     std::vector<float> weights;    ///< one for each of Face::targets, finite
     std::vector<Transform> nodes;  ///< parent_from_node of each of Face::nodes (ignored where the node has a matrix)
     Angles head, left_eye, right_eye;
+    std::vector<float> wrinkles;    ///< one for each wrinkle zone, clamped to the zone's range (jimenez-2012, 8.2)
+    std::vector<float> hemoglobin;  ///< share of each expression's and state's map, 0 or more; the neutral map has the
+                                    ///< rest, so that all add up to 1 (jimenez-2012, 7.5)
+    float hemoglobin_factor = 1;    ///< on the hemoglobin of the whole face
 };
 
 /// Weights are limited to this on either side: far beyond any use, and small enough that no sum overflows.
