@@ -4,8 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstring>
-#include <unordered_map>
 
 #include "rig/rest_frame.h"
 
@@ -24,19 +22,6 @@ Eigen2 eigen(double a, double b, double c) {
     const double angle = 0.5 * std::atan2(2 * b, a - c);
     return {mean - half, mean + half, {-std::sin(angle), std::cos(angle)}};
 }
-
-struct PositionHash {
-    std::size_t operator()(const glm::vec3& p) const {
-        std::size_t hash = 1469598103934665603ULL;  // FNV-1a
-        for (int i = 0; i < 3; ++i) {
-            std::uint32_t bits = 0;
-            const float value = p[i] == 0 ? 0.0F : p[i];  // both zeros are one place
-            std::memcpy(&bits, &value, sizeof(bits));
-            hash = (hash ^ bits) * 1099511628211ULL;
-        }
-        return hash;
-    }
-};
 
 }  // namespace
 
@@ -58,15 +43,12 @@ Stretch stretch_of(std::span<const glm::dvec3, 3> rest, std::span<const glm::dve
             x * squared.direction_of_least.x + y * squared.direction_of_least.y};
 }
 
-std::vector<Compression> vertex_compression(const Face& face, std::span<const glm::vec3> deformed) {
+std::vector<Compression> vertex_compression(const Face& face, std::span<const std::uint32_t> place,
+                                            std::span<const glm::vec3> deformed) {
     assert(deformed.size() == face.positions.size() && "one position for each vertex");
-    std::vector<std::uint32_t> place(face.positions.size());
-    std::unordered_map<glm::vec3, std::uint32_t, PositionHash> places;
-    for (std::size_t v = 0; v < place.size(); ++v) {
-        place[v] = places.try_emplace(face.positions[v], static_cast<std::uint32_t>(places.size())).first->second;
-    }
-    std::vector<Compression> sums(places.size(), Compression(0));
-    std::vector<double> areas(places.size(), 0);
+    assert(place.size() == face.positions.size() && "one entry of weld() for each vertex");
+    std::vector<Compression> sums(place.size(), Compression(0));
+    std::vector<double> areas(place.size(), 0);
     for (std::size_t i = 0; i + 2 < face.indices.size(); i += 3) {
         std::array<glm::dvec3, 3> rest, moved;
         for (std::size_t c = 0; c < 3; ++c) {

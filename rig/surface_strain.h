@@ -23,8 +23,9 @@ Stretch stretch_of(std::span<const glm::dvec3, 3> rest, std::span<const glm::dve
 using Compression = glm::dmat3;
 
 /// At each vertex: mean over the triangles around it, weighted by their area at rest. Vertices at one rest position
-/// share theirs. deformed: one position for each vertex of the face.
-std::vector<Compression> vertex_compression(const Face& face, std::span<const glm::vec3> deformed);
+/// share theirs: `place` is weld(face.positions) (rig/rest_frame.h). deformed: one position for each vertex.
+std::vector<Compression> vertex_compression(const Face& face, std::span<const std::uint32_t> place,
+                                            std::span<const glm::vec3> deformed);
 
 /// Largest eigenvalue within the plane across `normal`, and its direction (unit, along the plane).
 struct PrincipalCompression {

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "rig/rest_frame.h"
+
 namespace blush {
 namespace {
 
@@ -63,7 +65,7 @@ TEST(SurfaceStrain, VerticesAtOnePlaceShareTheirCompression) {
     face.indices = {0, 1, 2, 3, 4, 5};
     std::vector<glm::vec3> deformed = face.positions;
     for (glm::vec3& p : deformed) p.x *= 0.5F;
-    const std::vector<Compression> compression = vertex_compression(face, deformed);
+    const std::vector<Compression> compression = vertex_compression(face, weld(face.positions), deformed);
     for (const Compression& tensor : compression) {
         const PrincipalCompression principal = principal_compression(tensor, {0, 0, 1});
         EXPECT_NEAR(principal.amount, 0.5, 1e-6);
@@ -71,7 +73,7 @@ TEST(SurfaceStrain, VerticesAtOnePlaceShareTheirCompression) {
     }
     deformed = face.positions;
     deformed[0].x = 0.5F;  // squeezes the first triangle only; the seam's vertices see half of it
-    const std::vector<Compression> half = vertex_compression(face, deformed);
+    const std::vector<Compression> half = vertex_compression(face, weld(face.positions), deformed);
     EXPECT_EQ(half[1], half[3]);
     EXPECT_EQ(half[2], half[5]);
     EXPECT_EQ(principal_compression(half[4], {0, 0, 1}).amount, 0);
