@@ -9,10 +9,13 @@
 namespace blush {
 namespace {
 
-/// Vertices of a group: three vectors of four floats without a remainder.
-constexpr std::uint32_t group_vertices = 4;
-/// A group with fewer moved vertices than this is cheaper as loose vertices (14 bytes each against 48 for the group).
-constexpr std::uint32_t fewest_in_a_group = 2;
+/// Runs are made of groups of this many vertices: three vectors of eight floats.
+constexpr std::uint32_t group_vertices = 8;
+constexpr std::uint32_t block_numbers = 8;
+/// A group with fewer moved vertices than this is cheaper as loose vertices: one of these costs as much as a group.
+constexpr std::uint32_t fewest_in_a_group = 3;
+/// As many groups that a target leaves alone are filled with zeros to join two rows: starting a row costs as much.
+constexpr std::uint32_t longest_gap = 1;
 constexpr float most_steps = 32767;
 
 bool is_minus_zero(float value) { return std::bit_cast<std::uint32_t>(value) == 0x80000000U; }
@@ -27,8 +30,8 @@ bool minds_zero(const Vector& rest) {
 template <class Vector>
 class Packer {
 public:
-    Packer(const std::vector<Vector>& rest, DeltaPrecision precision, PackedAttribute& out)
-        : rest_(rest), precision_(precision), out_(out) {
+    Packer(const std::vector<Vector>& rest, DeltaPrecision precision, PackedAttribute& out) : rest_(rest), out_(out) {
+        out_.precision = precision;
         out_.components = Vector::length();
         out_.first_piece.push_back(0);
     }
@@ -60,40 +63,69 @@ private:
         piece.tile = tile;
         piece.first_run = out_.runs.size();
         piece.first_loose = out_.loose.size();
-        piece.first_delta = precision_ == DeltaPrecision::exact ? out_.floats.size() : out_.shorts.size();
+        piece.first_block = exact() ? out_.run_floats.size() : out_.run_steps.size();
         piece.step = largest_component() / most_steps;
 
-        const std::size_t first_vertex = std::size_t{tile} * tile_vertices;
-        const auto in_tile =
-            static_cast<std::uint32_t>(std::min<std::size_t>(tile_vertices, rest_.size() - first_vertex));
-        for (std::uint32_t first = 0; first < in_tile; first += group_vertices) {
-            const std::uint32_t last = std::min(first + group_vertices, in_tile);
-            std::uint32_t moved = 0;
-            bool fits = last - first == group_vertices;
-            for (std::uint32_t local = first; local < last; ++local) {
-                moved += moved_[local] ? 1U : 0U;
-                if (!moved_[local] && minds_zero(rest_[first_vertex + local])) fits = false;
-            }
-            if (moved == 0) continue;
-            if (!fits || moved < fewest_in_a_group) {
-                for (std::uint32_t local = first; local < last; ++local) {
-                    if (moved_[local]) out_.loose.push_back(static_cast<std::uint16_t>(local));
-                }
+        choose_rows(std::size_t{tile} * tile_vertices);
+        for (std::uint32_t local = 0; local < tile_vertices; ++local) {
+            if (!in_row_[local / group_vertices]) {
+                if (moved_[local]) out_.loose.push_back(static_cast<std::uint16_t>(local));
                 continue;
             }
-            if (out_.runs.size() != piece.first_run && out_.runs.back().first + out_.runs.back().count == first) {
-                out_.runs.back().count = static_cast<std::uint16_t>(out_.runs.back().count + group_vertices);
+            if (out_.runs.size() != piece.first_run && out_.runs.back().first + out_.runs.back().count == local) {
+                ++out_.runs.back().count;
             } else {
-                out_.runs.push_back({static_cast<std::uint16_t>(first), std::uint16_t{group_vertices}});
+                out_.runs.push_back({static_cast<std::uint16_t>(local), 1});
             }
-            for (std::uint32_t local = first; local < last; ++local) {
-                push(moved_[local] ? deltas_[local] : glm::vec3(0), piece.step);
+            const glm::vec3 delta = moved_[local] ? deltas_[local] : glm::vec3(0);
+            for (glm::length_t c = 0; c < Vector::length(); ++c) {
+                const std::size_t number = count_++;
+                if (exact()) {
+                    if (number % block_numbers == 0) out_.run_floats.emplace_back();
+                    out_.run_floats.back().values[number % block_numbers] = component(delta, c);
+                } else {
+                    if (number % block_numbers == 0) out_.run_steps.emplace_back();
+                    out_.run_steps.back().values[number % block_numbers] = steps(component(delta, c), piece.step);
+                }
             }
         }
-        for (std::size_t l = piece.first_loose; l < out_.loose.size(); ++l) push(deltas_[out_.loose[l]], piece.step);
+        for (std::size_t l = piece.first_loose; l < out_.loose.size(); ++l) {
+            for (glm::length_t c = 0; c < Vector::length(); ++c) {
+                const float value = component(deltas_[out_.loose[l]], c);
+                if (exact()) {
+                    out_.loose_floats.push_back(value);
+                } else {
+                    out_.loose_steps.push_back(steps(value, piece.step));
+                }
+            }
+        }
         piece.run_count = static_cast<std::uint32_t>(out_.runs.size() - piece.first_run);
         piece.loose_count = static_cast<std::uint32_t>(out_.loose.size() - piece.first_loose);
         out_.pieces.push_back(piece);
+    }
+
+    /// Which groups of the tile that starts at `first_vertex` stand in rows; what moves in the others is loose.
+    void choose_rows(std::size_t first_vertex) {
+        in_row_.fill(false);
+        constexpr std::uint32_t groups = tile_vertices / group_vertices;
+        std::uint32_t since_row = longest_gap + 1;  // groups since the last row that could become part of it
+        for (std::uint32_t group = 0; group < groups; ++group) {
+            std::uint32_t moved = 0;
+            bool fits = first_vertex + (group + 1) * std::size_t{group_vertices} <= rest_.size();
+            for (std::uint32_t local = group * group_vertices; fits && local < (group + 1) * group_vertices; ++local) {
+                moved += moved_[local] ? 1U : 0U;
+                if (!moved_[local] && minds_zero(rest_[first_vertex + local])) fits = false;
+            }
+            if (!fits) {
+                since_row = longest_gap + 1;
+            } else if (moved >= fewest_in_a_group || (moved > 0 && since_row == 0)) {
+                if (since_row <= longest_gap) std::fill_n(in_row_.begin() + (group - since_row), since_row, true);
+                in_row_[group] = true;
+                since_row = 0;
+            } else {
+                ++since_row;
+            }
+        }
     }
 
     float largest_component() const {
@@ -106,24 +138,23 @@ private:
         return largest;
     }
 
-    void push(glm::vec3 delta, float step) {
-        for (glm::length_t c = 0; c < Vector::length(); ++c) {
-            const float value = c < 3 ? delta[c] : 0.0F;
-            if (precision_ == DeltaPrecision::exact) {
-                out_.floats.push_back(value);
-            } else {
-                // A step of zero: every delta is zero, or so small that the step of the largest one underflows.
-                const float steps = step > 0 ? std::clamp(value / step, -most_steps, most_steps) : 0.0F;
-                out_.shorts.push_back(static_cast<std::int16_t>(std::lround(steps)));
-            }
-        }
+    bool exact() const { return out_.precision == DeltaPrecision::exact; }
+
+    /// The fourth component of a tangent is its sign, which no target moves.
+    static float component(glm::vec3 delta, glm::length_t c) { return c < 3 ? delta[c] : 0.0F; }
+
+    static std::int16_t steps(float value, float step) {
+        // A step of zero: every delta is zero, or so small that the step of the largest one underflows.
+        const float count = step > 0 ? std::clamp(value / step, -most_steps, most_steps) : 0.0F;
+        return static_cast<std::int16_t>(std::lround(count));
     }
 
     const std::vector<Vector>& rest_;
-    DeltaPrecision precision_;
     PackedAttribute& out_;
     std::array<bool, tile_vertices> moved_{};
     std::array<glm::vec3, tile_vertices> deltas_{};
+    std::array<bool, tile_vertices / group_vertices> in_row_{};
+    std::size_t count_ = 0;  ///< numbers in blocks so far; groups fill blocks to the end
 };
 
 void build_lists(const PackedAttribute& attribute, std::uint32_t tile_count, std::span<const ActiveTarget> active,
@@ -148,9 +179,9 @@ void build_lists(const PackedAttribute& attribute, std::uint32_t tile_count, std
 }  // namespace
 
 std::size_t PackedAttribute::bytes() const {
-    return first_piece.size() * sizeof(first_piece[0]) + pieces.size() * sizeof(Piece) +
-           runs.size() * sizeof(VertexRun) + loose.size() * sizeof(loose[0]) + floats.size() * sizeof(floats[0]) +
-           shorts.size() * sizeof(shorts[0]);
+    const auto size = [](const auto& vector) { return vector.size() * sizeof(vector[0]); };
+    return size(first_piece) + size(pieces) + size(runs) + size(loose) + size(run_floats) + size(loose_floats) +
+           size(run_steps) + size(loose_steps);
 }
 
 PackedTargets::PackedTargets(const Face& face, const PackOptions& options)

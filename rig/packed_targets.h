@@ -3,9 +3,10 @@
 ///
 /// Vertices are taken in tiles that stay in the first cache while the active targets are added to them one after
 /// another. In a tile, a target's deltas stand as plain floats in the order of the vertices, so that vertices in a row
-/// are one long multiply and add. Rows start and end at multiples of four vertices (three vectors of four floats); the
-/// vertices between that the target leaves alone have deltas of zero. A vertex that would need too many of those stands
-/// alone ("loose"), and so does one where a delta of zero could change a bit: -0 + 0 is +0.
+/// are one long multiply and add. Rows start and end at multiples of eight vertices, so that vectors of eight floats
+/// are aligned and nothing remains at the end; vertices in a row that the target leaves alone have deltas of zero. A
+/// vertex that would need too many of those stands alone ("loose"), and so does one where a delta of zero next to it
+/// could change a bit: -0 + 0 is +0.
 
 #include <cstddef>
 #include <cstdint>
@@ -41,15 +42,27 @@ struct PackedAttribute {
         std::uint32_t tile = 0;
         std::uint32_t run_count = 0, loose_count = 0;
         float step = 0;  ///< of sixteen_bits
-        std::size_t first_run = 0, first_loose = 0, first_delta = 0;
+        std::size_t first_run = 0, first_loose = 0;
+        std::size_t first_block = 0;  ///< of the deltas of its runs
     };
+    /// Deltas of runs come in blocks of eight numbers.
+    struct alignas(32) Floats {
+        float values[8];
+    };
+    struct alignas(16) Shorts {
+        std::int16_t values[8];
+    };
+    DeltaPrecision precision = DeltaPrecision::exact;
     std::uint32_t components = 3;            ///< floats a delta: 3, or 4 for tangents, whose last delta is 0
     std::vector<std::uint32_t> first_piece;  ///< of each target, and one past the last: targets + 1 entries
     std::vector<Piece> pieces;               ///< by target, then ascending by tile
     std::vector<VertexRun> runs;
-    std::vector<std::uint16_t> loose;
-    std::vector<float> floats;         ///< exact
-    std::vector<std::int16_t> shorts;  ///< sixteen_bits
+    std::vector<std::uint16_t> loose;  ///< vertices counted from the start of their tile
+    // Either is filled: deltas of the runs, and of the loose vertices (`components` numbers each).
+    std::vector<Floats> run_floats;
+    std::vector<float> loose_floats;
+    std::vector<Shorts> run_steps;
+    std::vector<std::int16_t> loose_steps;
 
     std::size_t bytes() const;
 };

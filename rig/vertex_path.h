@@ -37,7 +37,8 @@ struct VertexRange {
 
 class VertexPath {
 public:
-    /// One face of a crowd: its active targets, and where its deformed attributes go (one entry a vertex each).
+    /// One face of a crowd: its active targets, and where its deformed attributes go (one entry a vertex each). Normals
+    /// and tangents may both be left empty where positions are all that is wanted.
     struct Job {
         const ActivePieces* active = nullptr;
         NormalMethod method = NormalMethod::authored;

@@ -64,7 +64,7 @@ inline void add_scaled(float* values, const Delta* deltas, std::size_t count, fl
 
 template <class Pack, class Narrow, class Delta>
 void add_piece(float* values, std::uint32_t components, TilePart part, const PieceView<Delta>& piece, float weight) {
-    const Delta* deltas = piece.deltas;
+    const Delta* deltas = piece.run_deltas;
     for (std::size_t r = 0; r < piece.run_count; ++r) {
         const std::uint32_t begin = piece.runs[r].first, count = piece.runs[r].count, end = begin + count;
         const std::uint32_t first = begin > part.first ? begin : part.first;
@@ -76,6 +76,7 @@ void add_piece(float* values, std::uint32_t components, TilePart part, const Pie
         }
         deltas += std::size_t{components} * count;
     }
+    deltas = piece.loose_deltas;
     for (std::size_t l = 0; l < piece.loose_count; ++l, deltas += components) {
         const std::uint32_t vertex = piece.loose[l];
         if (vertex < part.first || vertex >= part.last) continue;

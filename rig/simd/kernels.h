@@ -9,14 +9,15 @@
 
 namespace blush::simd {
 
-/// The deltas of one target in one tile: those of its runs one after another, then one for each loose vertex.
+/// The deltas of one target in one tile.
 template <class Delta>
 struct PieceView {
     const VertexRun* runs = nullptr;
     std::size_t run_count = 0;
     const std::uint16_t* loose = nullptr;  ///< vertices counted from the start of the tile, ascending
     std::size_t loose_count = 0;
-    const Delta* deltas = nullptr;
+    const Delta* run_deltas = nullptr;    ///< of its runs, one after another
+    const Delta* loose_deltas = nullptr;  ///< of its loose vertices
 };
 
 /// The part of a tile to work on: first <= vertex < last, counted from the start of the tile.

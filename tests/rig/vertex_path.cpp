@@ -213,7 +213,7 @@ TEST(VertexPath, AnySplitIntoRangesGivesTheSameBits) {
 }
 
 TEST(VertexPath, ARangeLeavesTheRestOfTheOutputAlone) {
-    const Face face = awkward_face(53, 8);
+    const Face face = make_face({.side = 53, .targets = 9, .normal_deltas = true, .tangent_deltas = true});
     const std::vector<float> weights = spread_weights(face, 9);
     for (const SimdPath simd : simd_paths()) {
         const VertexPath path(face, {}, simd);
@@ -233,6 +233,19 @@ TEST(VertexPath, ARangeLeavesTheRestOfTheOutputAlone) {
         path.add_targets({}, path.all_vertices());
         EXPECT_TRUE(std::isnan(out.positions[70].x));
     }
+}
+
+TEST(VertexPath, PositionsAloneAreThoseOfTheWholeSurface) {
+    const Face face = awkward_face(53, 8);
+    const std::vector<float> weights = spread_weights(face, 9);
+    const VertexPath path(face);
+    ActivePieces active;
+    active.build(path.targets(), weights);
+    std::vector<glm::vec3> positions(face.positions.size());
+    const VertexPath::Job job{&active, NormalMethod::authored, positions, {}, {}};
+    path.add_targets({&job, 1}, path.all_vertices());
+    path.turn_normals({&job, 1}, path.all_vertices());
+    EXPECT_TRUE(same_bits(positions, deformed(path, face, weights, NormalMethod::authored).positions));
 }
 
 TEST(VertexPath, AnyBatchOfFacesGivesEachItsOwnBits) {
