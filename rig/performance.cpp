@@ -116,7 +116,7 @@ Performance performance_from_animations(const Face& face, std::optional<std::siz
 }
 
 BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : performance_(std::move(performance)) {
-    const auto names = rig.control_names();
+    const std::span<const std::string> names = rig.control_names();
     std::vector<std::uint32_t> channel_of_control(names.size(), no_control);
     for (std::size_t i = 0; i < performance_.channels.size(); ++i) {
         const std::string& name = performance_.channels[i].name;
@@ -134,8 +134,13 @@ BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : pe
         }
         channel = static_cast<std::uint32_t>(i);
     }
+    std::vector<std::uint8_t> driven(rig.target_count(), 0);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (channel_of_control[i] == no_control) continue;
+        for (const std::uint32_t target : rig.reach(static_cast<ControlId>(i))) driven[target] = 1;
+    }
     for (std::size_t i = 0; i < rig.target_count(); ++i) {
-        if (channel_of_control[i] == no_control) undriven_targets_.push_back(names[i]);
+        if (driven[i] == 0) undriven_targets_.push_back(names[i]);
     }
     // Node indices mean the face that they came from; on a smaller one those beyond its end have nothing to move.
     const std::size_t node_count = rig.rest_pose().nodes.size();
