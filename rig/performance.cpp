@@ -163,8 +163,12 @@ BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : pe
     driven_controls_.erase(repeated.begin(), repeated.end());
 
     if (driven_controls_.empty() || driven_controls_.front() < rig.target_count()) {
+        std::vector<std::uint8_t> driven(rig.target_count(), 0);
+        for (const std::uint32_t control : driven_controls_) {
+            for (const std::uint32_t target : rig.reach(static_cast<ControlId>(control))) driven[target] = 1;
+        }
         for (std::uint32_t i = 0; i < rig.target_count(); ++i) {
-            if (!std::ranges::binary_search(driven_controls_, i)) undriven_targets_.push_back(rig.control_names()[i]);
+            if (driven[i] == 0) undriven_targets_.push_back(rig.control_names()[i]);
         }
     }
     // Node indices mean the face that they came from; on a smaller one those beyond its end have nothing to move.
