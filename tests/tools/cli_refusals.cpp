@@ -44,7 +44,7 @@ TEST_F(Cli, BadFacesAreNamed) {
 
 TEST_F(Cli, BadCommandsAreNamed) {
     expect_refused("", "A subcommand is required");
-    expect_refused("wink", "there is no command \"wink\" (there are: info evaluate render play explain accuracy)");
+    expect_refused("wink", "there is no command \"wink\" (there are: info evaluate render play explain accuracy bake)");
     expect_refused("info", "FACE is required");
     expect_refused("render face.glb", "--output is required");
     expect_refused("evaluate face.glb -o x.ply --on tpu", "--on: tpu not in {cpu,gpu}");
