@@ -20,15 +20,17 @@ glm::vec3 normal_from_derivative(glm::vec2 derivative) {
 }
 
 DerivativeMap derivatives_from_normals(const NormalMap& normals, float range, double* saturated) {
-    DerivativeMap map{normals.width, normals.height, {}};
-    map.texels.reserve(normals.texels.size());
+    DerivativeMap map;
+    map.width = normals.width;
+    map.height = normals.height;
+    map.values.reserve(normals.values.size());
     std::size_t cut_off = 0;
-    for (const glm::vec3& n : normals.texels) {
-        map.texels.push_back(derivative_from_normal(n, range));
+    for (const glm::vec3& n : normals.values) {
+        map.values.push_back(derivative_from_normal(n, range));
         if (std::max(std::abs(n.x), std::abs(n.y)) > n.z * range) ++cut_off;
     }
     if (saturated != nullptr) {
-        *saturated = normals.texels.empty() ? 0 : static_cast<double>(cut_off) / static_cast<double>(map.texels.size());
+        *saturated = normals.values.empty() ? 0 : static_cast<double>(cut_off) / static_cast<double>(map.values.size());
     }
     return map;
 }
@@ -36,7 +38,7 @@ DerivativeMap derivatives_from_normals(const NormalMap& normals, float range, do
 DerivativeMap derivatives_from_heights(std::span<const float> heights, std::uint32_t width, std::uint32_t height,
                                        glm::vec2 texel_size) {
     assert(heights.size() == std::size_t{width} * height && "one height for each texel");
-    DerivativeMap map{width, height, std::vector<glm::vec2>(heights.size())};
+    DerivativeMap map(width, height);
     const auto at = [&](std::uint32_t x, std::uint32_t y) { return heights[std::size_t{y} * width + x]; };
     for (std::uint32_t y = 0; y < height; ++y) {
         for (std::uint32_t x = 0; x < width; ++x) {
@@ -44,7 +46,7 @@ DerivativeMap derivatives_from_heights(std::span<const float> heights, std::uint
             const std::uint32_t up = y == 0 ? 0 : y - 1, down = std::min(y + 1, height - 1);
             const float run_x = static_cast<float>(std::max(right - left, 1U)) * texel_size.x;
             const float run_y = static_cast<float>(std::max(down - up, 1U)) * texel_size.y;
-            map.texels[std::size_t{y} * width + x] = {(at(left, y) - at(right, y)) / run_x,
+            map.values[std::size_t{y} * width + x] = {(at(left, y) - at(right, y)) / run_x,
                                                       (at(x, up) - at(x, down)) / run_y};
         }
     }

@@ -11,16 +11,13 @@
 
 #include <glm/glm.hpp>
 
+#include "rig/map.h"
+
 namespace blush {
 
-/// A map of vectors in tangent space, rows from the top, x along the tangent, y along the bitangent.
-template <class T>
-struct TangentMap {
-    std::uint32_t width = 0, height = 0;
-    std::vector<T> texels;
-};
-using NormalMap = TangentMap<glm::vec3>;      ///< unit vectors
-using DerivativeMap = TangentMap<glm::vec2>;  ///< n_x / n_z, n_y / n_z
+/// Maps in tangent space: x along the tangent, y along the bitangent.
+using NormalMap = Map<glm::vec3>;      ///< unit vectors
+using DerivativeMap = Map<glm::vec2>;  ///< n_x / n_z, n_y / n_z
 
 /// How far from flat a stored derivative can be: 1 is the 45 degrees that 8 bits of the paper reach (8.2.1), 4 is 76
 /// degrees at a quarter of the precision.

@@ -151,7 +151,7 @@ public:
 
     /// Derivatives of a height field (mm) in the face's tangent space; texels outside of all charts repeat the nearest.
     DerivativeMap derivatives(const Field& heights) const {
-        DerivativeMap map{settings_.map_side, settings_.map_side, std::vector<glm::vec2>(heights.size(), glm::vec2(0))};
+        DerivativeMap map(settings_.map_side, settings_.map_side, glm::vec2(0));
         for (std::size_t i = 0; i < heights.size(); ++i) {
             if (!raster_.covered(i)) continue;
             const Chart& chart = charts_[i];
@@ -161,10 +161,10 @@ public:
             const double rise_u = rise(heights, i, 1, 0), rise_v = rise(heights, i, 0, 1);
             const glm::dvec3 gradient = chart.along_u * ((vv * rise_u - uv * rise_v) / determinant) +
                                         chart.along_v * ((uu * rise_v - uv * rise_u) / determinant);
-            map.texels[i] = {static_cast<float>(-glm::dot(gradient, chart.tangent)),
+            map.values[i] = {static_cast<float>(-glm::dot(gradient, chart.tangent)),
                              static_cast<float>(-glm::dot(gradient, chart.bitangent))};
         }
-        for (std::size_t i = 0; i < heights.size(); ++i) map.texels[i] = map.texels[nearest_[i]];
+        for (std::size_t i = 0; i < heights.size(); ++i) map.values[i] = map.values[nearest_[i]];
         return map;
     }
 
@@ -308,9 +308,9 @@ WrinkleMaps bake_wrinkles(const Face& face, std::span<const std::uint8_t> skin, 
     Baker baker(face, skin, settings);
     const std::size_t map_texels = std::size_t{settings.map_side} * settings.map_side;
     WrinkleMaps maps;
-    maps.displacement_mm.assign(map_texels, 0);
-    maps.derivatives = {settings.map_side, settings.map_side, std::vector<glm::vec2>(map_texels, glm::vec2(0))};
-    maps.masks.assign(zones, Field(std::size_t{settings.mask_side} * settings.mask_side, 0));
+    maps.displacement_mm = ScalarMap(settings.map_side, settings.map_side);
+    maps.derivatives = DerivativeMap(settings.map_side, settings.map_side, glm::vec2(0));
+    maps.masks.assign(zones, ScalarMap(settings.mask_side, settings.mask_side));
     if (baker.empty()) {
         maps.raster = baker.take_raster();
         return maps;
@@ -350,10 +350,11 @@ WrinkleMaps bake_wrinkles(const Face& face, std::span<const std::uint8_t> skin, 
         const float amplitude = settings.spacing_mm / pi * std::sqrt(folded_share * compression[i]) * depths[i];
         // Valleys of skin are sharper than its ridges.
         const float depth = 0.5F - 0.5F * folds[i];
-        maps.displacement_mm[i] = folds[i] == 0 ? 0 : amplitude * (1 - 2 * depth * depth);
+        maps.displacement_mm.values[i] = folds[i] == 0 ? 0 : amplitude * (1 - 2 * depth * depth);
     }
-    maps.derivatives = baker.derivatives(maps.displacement_mm);
-    for (std::size_t zone = 0; zone < zones; ++zone) maps.masks[zone] = baker.resized(masks[zone], settings.mask_side);
+    maps.derivatives = baker.derivatives(maps.displacement_mm.values);
+    for (std::size_t zone = 0; zone < zones; ++zone)
+        maps.masks[zone].values = baker.resized(masks[zone], settings.mask_side);
     maps.raster = baker.take_raster();
     return maps;
 }

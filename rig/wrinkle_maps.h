@@ -30,10 +30,9 @@ struct WrinkleBake {
 };
 
 struct WrinkleMaps {
-    UvRaster raster;                        ///< of the wrinkle map
-    std::vector<float> displacement_mm;     ///< map_side x map_side, along the normal, at full strength of every zone
-    DerivativeMap derivatives;              ///< of the displacement, in the face's own tangent space
-    std::vector<std::vector<float>> masks;  ///< of each zone: mask_side x mask_side, 0 to 1; together no more than 1
+    UvRaster raster;               ///< of the wrinkle map
+    ScalarMap displacement_mm;     ///< along the normal, at full strength of every zone
+    std::vector<ScalarMap> masks;  ///< of each zone: mask_side x mask_side, 0 to 1; together no more than 1
 };
 
 /// skin: one entry for each primitive, 0 leaves it out. sources: at least one; zones are counted by the first. A face

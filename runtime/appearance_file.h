@@ -37,6 +37,10 @@ Result<AppearanceMaps> load_appearance(const std::filesystem::path& folder);
 /// NAME.exr for each of the maps: the scale in the first channel and the offset in the second, 16-bit float.
 Status write_hemoglobin_maps(const std::filesystem::path& folder, const HemoglobinMaps& maps);
 
+/// Reads those of them, by hemoglobin_pattern_names, that are there. Error: maps of two sizes, or more than 4,096
+/// texels a side.
+Result<HemoglobinMaps> load_hemoglobin_maps(const std::filesystem::path& folder);
+
 /// A pattern as JSON (docs/appearance.md describes the format; unknown keys are errors).
 Result<HemoglobinPattern> load_hemoglobin_pattern(const std::filesystem::path& path);
 /// All that the project ships, by hemoglobin_pattern_names, out of one folder.

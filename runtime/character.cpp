@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "runtime/appearance_gpu.h"
 #include "runtime/character_state.h"
 #include "runtime/face_file.h"
 #include "runtime/frame.h"
@@ -48,7 +49,11 @@ Character::~Character() = default;
 Result<Character> Character::load(const Device& device, const std::filesystem::path& path) {
     Result<Face> face = load_face(path);
     if (!face) return face.error();
-    return create(device, *std::move(face));
+    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(path));
+    if (!appearance) return appearance.error();
+    Result<Character> character = create(device, *std::move(face));
+    if (character) character->set_appearance(*std::move(appearance));
+    return character;
 }
 
 Result<Character> Character::create(const Device& device, Face face) {
@@ -94,6 +99,13 @@ Pose& Character::pose() { return state_->pose; }
 
 Status Character::set(std::string_view setting, std::string_view choice) {
     return state_->settings.set(setting, choice);
+}
+
+void Character::set_appearance(FaceAppearance appearance) {
+    state_->device.make_current();
+    state_->appearance = std::move(appearance);
+    state_->own<WrinkleTextures>() = {};
+    state_->own<BloodTextures>() = {};
 }
 
 OrbitCamera Character::framing(float aspect) const { return frame_head(state_->bounds, aspect); }

@@ -13,6 +13,7 @@
 #include "runtime/camera.h"
 #include "runtime/device.h"
 #include "runtime/effect_settings.h"
+#include "runtime/face_appearance.h"
 #include "runtime/frame_report.h"
 #include "runtime/view.h"
 
@@ -45,6 +46,9 @@ public:
 
     /// Status: no such effect, setting or choice.
     Status set(std::string_view setting, std::string_view choice);
+
+    /// The maps of its wrinkles and its blood. load() finds them beside the file (runtime/face_appearance.h).
+    void set_appearance(FaceAppearance appearance);
 
     /// A camera that frames the face at rest. aspect: width / height.
     OrbitCamera framing(float aspect) const;

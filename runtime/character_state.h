@@ -12,6 +12,7 @@
 #include "rig/rig.h"
 #include "runtime/device.h"
 #include "runtime/effect_settings.h"
+#include "runtime/face_appearance.h"
 #include "runtime/face_model.h"
 #include "runtime/finite_check.h"
 #include "runtime/frame_graph.h"
@@ -38,6 +39,7 @@ struct FrameResources {
     ResourceId positions{}, normals{}, tangents{};                          ///< the surface as far as it has come
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
+    ResourceId blood_change{};  ///< what "blend blood" writes
     ResourceId display{};  ///< the display image as far as it has come
     ResourceId target{};   ///< the view's framebuffer
 };
@@ -56,6 +58,7 @@ struct CharacterState {
     std::vector<float> controls;
     Pose pose;
     EffectSettings settings;
+    FaceAppearance appearance;
 
     std::optional<StreamOut> stream_out;  // made right after construction: it refers to `face`
     FaceModel model;

@@ -5,10 +5,14 @@
 // Lights of a frame: key, fill and rim.
 #define BLUSH_LIGHT_COUNT 3
 
+// Maps of blood that act at once, at most.
+#define BLUSH_MOST_BLOOD_MAPS 32
+
 // Uniform blocks.
 #define BLUSH_FRAME_BINDING 0
 #define BLUSH_DRAW_BINDING 1
 #define BLUSH_MATERIAL_BINDING 2
+#define BLUSH_APPEARANCE_BINDING 3
 
 // Storage blocks of the deformation.
 #define BLUSH_FIRST_ENTRY_BINDING 0
@@ -51,6 +55,12 @@
 #define BLUSH_NORMAL_MAP_UNIT 2
 #define BLUSH_OCCLUSION_UNIT 3
 #define BLUSH_EMISSIVE_UNIT 4
+#define BLUSH_WRINKLE_MAP_UNIT 10
+#define BLUSH_WRINKLE_MASK_1_UNIT 11
+#define BLUSH_WRINKLE_MASK_2_UNIT 12
+#define BLUSH_PIGMENT_UNIT 13
+#define BLUSH_BLOOD_CHANGE_UNIT 14
+#define BLUSH_SKIN_COLOR_UNIT 15
 #define BLUSH_SCENE_COLOR_UNIT 0
 // Of the antialiasing passes (runtime/antialias/).
 #define BLUSH_AA_COLOR_UNIT 0
@@ -94,4 +104,10 @@ BLUSH_UNIFORM_BLOCK(MaterialBlock, BLUSH_MATERIAL_BINDING) {
     vec4 uv_rows[10];          // two rows of the 3x2 texture-coordinate transform of each of the five textures
     ivec4 uv_sets;             // texture-coordinate set of base colour, metallic-roughness, normal, occlusion
     ivec4 emissive_uv_set;     // x: of emissive; yzw unused
+};
+
+BLUSH_UNIFORM_BLOCK(AppearanceBlock, BLUSH_APPEARANCE_BINDING) {
+    vec4 wrinkle_weights[2];  // of the zones, as the masks' channels hold them
+    vec4 wrinkle_range;       // x: derivative that the map's 1 stands for; yzw unused
+    vec4 blood;               // x: factor on the hemoglobin of the whole face; y: largest hemoglobin; zw unused
 };

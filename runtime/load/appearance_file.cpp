@@ -290,6 +290,30 @@ Status write_hemoglobin_maps(const fs::path& folder, const HemoglobinMaps& maps)
     return Done{};
 }
 
+Result<HemoglobinMaps> load_hemoglobin_maps(const fs::path& folder) {
+    constexpr std::uint32_t most_side = 4096;
+    HemoglobinMaps maps;
+    for (const std::string& name : hemoglobin_pattern_names) {
+        const fs::path path = folder / (name + ".exr");
+        std::error_code failed;
+        if (!fs::exists(path, failed)) continue;
+        const Result<ColourMap> read = load_colour_map(path);
+        if (!read) return read.error();
+        if (read->width > most_side || read->height > most_side)
+            return Error{path.string() + ": more than " + std::to_string(most_side) + " texels a side"};
+        HemoglobinChange change{ScalarMap(read->width, read->height), ScalarMap(read->width, read->height)};
+        for (std::size_t i = 0; i < read->values.size(); ++i) {
+            change.scale.values[i] = std::clamp(read->values[i].r, 0.0F, largest_hemoglobin_scale);
+            change.offset.values[i] = read->values[i].g;
+        }
+        if (!maps.changes.empty() && !maps.changes[0].scale.same_size(change.scale))
+            return Error{path.string() + ": its size is not that of " + maps.names[0] + ".exr"};
+        maps.names.push_back(name);
+        maps.changes.push_back(std::move(change));
+    }
+    return maps;
+}
+
 Result<HemoglobinPattern> load_hemoglobin_pattern(const fs::path& path) {
     return guarded<HemoglobinPattern>(path, [&] { return pattern_of(read_json(path)); });
 }

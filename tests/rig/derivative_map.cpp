@@ -54,8 +54,8 @@ TEST(DerivativeMap, SumsOfDerivativesAreSumsOfHeights) {
     const auto a = derivatives_from_heights(first, side, side, glm::vec2(1));
     const auto b = derivatives_from_heights(second, side, side, glm::vec2(1));
     const auto sum = derivatives_from_heights(both, side, side, glm::vec2(1));
-    for (std::size_t i = 0; i < sum.texels.size(); ++i) {
-        EXPECT_NEAR(glm::distance(a.texels[i] + b.texels[i], sum.texels[i]), 0, 1e-6F);
+    for (std::size_t i = 0; i < sum.values.size(); ++i) {
+        EXPECT_NEAR(glm::distance(a.values[i] + b.values[i], sum.values[i]), 0, 1e-6F);
     }
 }
 
@@ -65,7 +65,7 @@ TEST(DerivativeMap, APlaneOfKnownSlopeHasItsNormal) {
     for (std::uint32_t i = 0; i < side * side; ++i)
         heights.push_back(0.25F * static_cast<float>(i % side) - 0.5F * static_cast<float>(i / side));
     const auto map = derivatives_from_heights(heights, side, side, glm::vec2(0.5F, 2));
-    for (const glm::vec2 texel : map.texels) {
+    for (const glm::vec2 texel : map.values) {
         EXPECT_FLOAT_EQ(texel.x, -0.5F);
         EXPECT_FLOAT_EQ(texel.y, 0.25F);
     }
@@ -82,7 +82,9 @@ TEST(DerivativeMap, BeyondTheRangeTheTiltEndsThere) {
     EXPECT_NEAR(angle_degrees(normal_from_derivative(derivative_from_normal(tilted(89, 0), 4)), {0, 0, 1}), 75.96,
                 0.01);
     double saturated = 0;
-    derivatives_from_normals({2, 1, {tilted(50, 0), tilted(40, 0)}}, 1, &saturated);
+    NormalMap two(2, 1);
+    two.values = {tilted(50, 0), tilted(40, 0)};
+    derivatives_from_normals(two, 1, &saturated);
     EXPECT_EQ(saturated, 0.5);
 }
 

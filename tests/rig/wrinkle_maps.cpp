@@ -58,13 +58,14 @@ TEST(WrinkleMaps, EachZoneIsWhereItsPosePressesTheSkin) {
     const WrinkleMaps maps = bake();
     ASSERT_EQ(maps.masks.size(), 2U);
     for (std::uint32_t y = 2; y < 14; ++y) {
-        EXPECT_GT(maps.masks[0][y * 16 + 3], 0.9F);
-        EXPECT_LT(maps.masks[0][y * 16 + 12], 0.01F);
-        EXPECT_LT(maps.masks[1][y * 16 + 3], 0.01F);
+        EXPECT_GT(maps.masks[0].values[y * 16 + 3], 0.9F);
+        EXPECT_LT(maps.masks[0].values[y * 16 + 12], 0.01F);
+        EXPECT_LT(maps.masks[1].values[y * 16 + 3], 0.01F);
         // Less than full: the shear where this squeeze fades out shortens the skin more.
-        EXPECT_GT(maps.masks[1][y * 16 + 12], 0.7F);
+        EXPECT_GT(maps.masks[1].values[y * 16 + 12], 0.7F);
     }
-    for (std::size_t i = 0; i < maps.masks[0].size(); ++i) EXPECT_LE(maps.masks[0][i] + maps.masks[1][i], 1.0001F);
+    for (std::size_t i = 0; i < maps.masks[0].values.size(); ++i)
+        EXPECT_LE(maps.masks[0].values[i] + maps.masks[1].values[i], 1.0001F);
 }
 
 TEST(WrinkleMaps, FoldsRunAcrossTheCompression) {
@@ -73,7 +74,7 @@ TEST(WrinkleMaps, FoldsRunAcrossTheCompression) {
         glm::vec2 sum(0);
         for (std::uint32_t y = 8; y < 56; ++y) {
             for (std::uint32_t x = first_x; x < first_x + 16; ++x) {
-                const glm::vec2 derivative = maps.derivatives.texels[y * 64 + x];
+                const glm::vec2 derivative = maps.derivatives.values[y * 64 + x];
                 sum += derivative * derivative;
             }
         }
@@ -91,11 +92,13 @@ TEST(WrinkleMaps, DerivativesAreThoseOfTheDisplacedSurface) {
     const float texel_mm = 100.0F / 64;
     for (std::uint32_t y = 1; y < 63; ++y) {
         for (std::uint32_t x = 1; x < 63; ++x) {
-            const auto height = [&](std::uint32_t u, std::uint32_t v) { return maps.displacement_mm[v * 64 + u]; };
+            const auto height = [&](std::uint32_t u, std::uint32_t v) {
+                return maps.displacement_mm.values[v * 64 + u];
+            };
             const glm::vec3 along_x(2 * texel_mm, 0, height(x + 1, y) - height(x - 1, y));
             const glm::vec3 along_y(0, 2 * texel_mm, height(x, y - 1) - height(x, y + 1));
             const glm::vec3 truth = glm::normalize(glm::cross(along_x, along_y));
-            const glm::vec3 tangent_space = normal_from_derivative(maps.derivatives.texels[y * 64 + x]);
+            const glm::vec3 tangent_space = normal_from_derivative(maps.derivatives.values[y * 64 + x]);
             // tangent +x, bitangent cross(z, x) * -1 = -y
             const glm::vec3 n(tangent_space.x, -tangent_space.y, tangent_space.z);
             ASSERT_LT(glm::distance(n, truth), 1e-4F) << x << ", " << y;
@@ -110,27 +113,28 @@ TEST(WrinkleMaps, NothingPressedNothingFolded) {
     }
     const std::vector<WrinkleSource> stretch = {{{1, 0}, {1, 0}}};
     const WrinkleMaps maps = bake_wrinkles(face, skin, stretch, small);
-    for (std::uint32_t y = 0; y < 16; ++y) EXPECT_LT(maps.masks[0][y * 16 + 2], 0.2F);
+    for (std::uint32_t y = 0; y < 16; ++y) EXPECT_LT(maps.masks[0].values[y * 16 + 2], 0.2F);
     const std::vector<WrinkleSource> smoothing = {{{1, 0}, {-1, 0}}};
     const WrinkleMaps none = bake_wrinkles(sheet(), skin, smoothing, small);
-    for (const float value : none.displacement_mm) ASSERT_EQ(value, 0);
-    for (const float value : none.masks[0]) ASSERT_EQ(value, 0);
+    for (const float value : none.displacement_mm.values) ASSERT_EQ(value, 0);
+    for (const float value : none.masks[0].values) ASSERT_EQ(value, 0);
 }
 
 TEST(WrinkleMaps, AFaceWithoutTextureCoordinatesHasNoMaps) {
     Face face = sheet();
     for (glm::vec2& uv : face.uv0) uv = {0, 0};
     const WrinkleMaps maps = bake_wrinkles(face, skin, sources, small);
-    EXPECT_EQ(maps.derivatives.texels.size(), 64U * 64);
-    for (const float value : maps.masks[0]) ASSERT_EQ(value, 0);
+    EXPECT_EQ(maps.derivatives.values.size(), 64U * 64);
+    for (const float value : maps.masks[0].values) ASSERT_EQ(value, 0);
     const WrinkleMaps left_out = bake_wrinkles(sheet(), std::vector<std::uint8_t>{0}, sources, small);
-    for (const float value : left_out.displacement_mm) ASSERT_EQ(value, 0);
+    for (const float value : left_out.displacement_mm.values) ASSERT_EQ(value, 0);
 }
 
 TEST(WrinkleMaps, SameFaceSameBits) {
     const WrinkleMaps first = bake(), second = bake();
-    EXPECT_EQ(first.displacement_mm, second.displacement_mm);
-    EXPECT_EQ(first.masks, second.masks);
+    EXPECT_EQ(first.displacement_mm.values, second.displacement_mm.values);
+    EXPECT_EQ(first.masks[0].values, second.masks[0].values);
+    EXPECT_EQ(first.masks[1].values, second.masks[1].values);
 }
 
 TEST(WrinkleMaps, ScaleOfTheMeshDoesNotMatter) {
@@ -142,8 +146,8 @@ TEST(WrinkleMaps, ScaleOfTheMeshDoesNotMatter) {
     WrinkleBake metres = small;
     metres.millimetres_a_unit = 1000;
     const WrinkleMaps in_metres = bake_wrinkles(face, skin, sources, metres), in_mm = bake();
-    for (std::size_t i = 0; i < in_mm.masks[0].size(); ++i)
-        EXPECT_NEAR(in_metres.masks[0][i], in_mm.masks[0][i], 1e-3F);
+    for (std::size_t i = 0; i < in_mm.masks[0].values.size(); ++i)
+        EXPECT_NEAR(in_metres.masks[0].values[i], in_mm.masks[0].values[i], 1e-3F);
 }
 
 }  // namespace

@@ -5,9 +5,10 @@
 namespace blush::tool {
 
 void add_bake(CLI::App& app, int& exit_status) {
-    CLI::App* command = app.add_subcommand("bake", "Make maps ahead of time: appearance");
+    CLI::App* command = app.add_subcommand("bake", "Make maps ahead of time: appearance, wrinkles");
     command->require_subcommand(1);
     add_bake_appearance(*command, exit_status);
+    add_bake_wrinkles(*command, exit_status);
 }
 
 }  // namespace blush::tool

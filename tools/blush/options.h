@@ -66,5 +66,6 @@ void add_bake(CLI::App& app, int& exit_status);
 
 // The subcommands of bake.
 void add_bake_appearance(CLI::App& bake_command, int& exit_status);
+void add_bake_wrinkles(CLI::App& bake_command, int& exit_status);
 
 }  // namespace blush::tool

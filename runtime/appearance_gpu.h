@@ -1,0 +1,55 @@
+#pragma once
+/// The GPU side of a face's appearance maps, made when the first frame needs them.
+
+#include <cstdint>
+#include <vector>
+
+#include "rig/derivative_map.h"
+#include "runtime/character_state.h"
+#include "runtime/gl/object.h"
+#include "runtime/gl/program.h"
+
+namespace blush {
+
+/// How the wrinkle map stands in memory.
+enum class WrinkleStorage : std::uint8_t {
+    compressed,  ///< RGTC2 (BC5, the paper's 3Dc): 8 bits a texel
+    plain,       ///< two signed bytes a texel
+    half_float,  ///< what the compressed ones are measured against
+};
+
+struct WrinkleTextures {
+    gl::Texture derivatives, differences;  ///< each made when its encoding is first asked for
+    gl::Texture masks[2];
+    WrinkleStorage storage = WrinkleStorage::compressed;  ///< of both maps
+    std::uint64_t bytes = 0;                              ///< of the map in use and the masks
+};
+
+struct BloodTextures {
+    gl::Texture pigments, table;
+    gl::Texture changes;              ///< a layer for each map that the face has
+    gl::Texture blended;              ///< the changes by the shares of the pose
+    std::vector<std::int32_t> layer;  ///< of each of Rig::hemoglobin_maps(), -1 where the face has no map for it
+    gl::Program blend_program;
+    gl::Framebuffer blend_framebuffer;  ///< draws into `blended`
+    std::vector<float> blended_shares;  ///< what `blended` holds; empty: nothing yet
+};
+
+struct AppearanceBuffer {
+    gl::Buffer buffer;  ///< shared::AppearanceBlock
+};
+
+WrinkleTextures& wrinkle_textures(CharacterState& state);
+BloodTextures& blood_textures(CharacterState& state);
+
+/// The map of normal differences that stands for the same wrinkles (jimenez-2012, 8.2.1): at each texel, wrinkled minus
+/// base. base: a tangent-space normal map of any size, or one without texels for a flat base.
+Map<glm::vec3> normal_differences(const DerivativeMap& wrinkles, const NormalMap& base);
+
+/// Blends the blood maps of the pose into BloodTextures::blended.
+void blend_blood(CharacterState& state);
+
+/// Writes the shared block and binds it with the textures of what is on. Effects that are off bind nothing.
+void bind_appearance(CharacterState& state, bool wrinkles, bool blood);
+
+}  // namespace blush

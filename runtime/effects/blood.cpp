@@ -1,0 +1,75 @@
+/// Blood: the colour of skin follows its hemoglobin (jimenez-2012, chapter 7).
+
+#include <algorithm>
+#include <array>
+
+#include "runtime/appearance_gpu.h"
+#include "runtime/appearance_probe.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+Need need(const CharacterState& state) {
+    if (!state.appearance.pigments) {
+        return {.on = false,
+                .reason = "the face has no maps of melanin and hemoglobin (blush bake appearance makes them)",
+                .can_be_forced = false};
+    }
+    const bool neutral = std::ranges::all_of(state.pose.hemoglobin, [](float share) { return share == 0; });
+    if (neutral && state.pose.hemoglobin_factor == 1) {
+        return {.on = false, .reason = "the blood is as it is at rest: the skin has the colour of its texture"};
+    }
+    return {.on = true, .reason = "some expression or state moves blood"};
+}
+
+void declare(CharacterState& state) {
+    BloodTextures& textures = blood_textures(state);
+    if (textures.blended_shares == state.pose.hemoglobin && !state.facts.forced) return;
+    state.resources.blood_change = state.graph.import_framebuffer("blood", 0, {});
+    state.graph.pass("blend blood", [&state](const FrameGraph&) { blend_blood(state); })
+        .writes(state.resources.blood_change);
+}
+
+std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
+    std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
+    if (!probe || !probe->state().appearance.pigments) return {};
+    Study study{"anger on the face's texture, 256 x 256 points",
+                "equation 7.6 and the table on the CPU",
+                "CIEDE2000",
+                {},
+                probe};
+    Variant on;
+    on.label = "blood";
+    on.is_default = true;
+    on.work = "3 lookups a pixel and 1 of the texture";
+    on.run = [probe] { probe->draw_colors("anger"); };
+    on.error = [probe] { return probe->color_error("anger"); };
+    study.variants.push_back(std::move(on));
+    Variant off;
+    off.label = "left out";
+    off.work = "1 lookup of the texture";
+    off.run = [probe] { probe->draw_colors(""); };
+    off.error = [probe] { return probe->color_error("anger", false); };
+    study.variants.push_back(std::move(off));
+    return {std::move(study)};
+}
+
+constexpr std::array<HardCase, 1> hard_cases = {{
+    {"face without maps of its pigments", "is drawn as it is", [](Face& /*face*/) {}},
+}};
+
+}  // namespace
+
+const Effect blood_effect = {
+    .name = "blood",
+    .what = "skin takes the colour of the blood in it",
+    .settings = {},
+    .stage = Stage::light,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

@@ -1,0 +1,131 @@
+/// Wrinkles: normals that fold where the pose presses the skin together (jimenez-2012, chapter 8).
+
+#include <algorithm>
+#include <array>
+
+#include "rig/wrinkle_error.h"
+#include "runtime/appearance_gpu.h"
+#include "runtime/appearance_probe.h"
+#include "runtime/effect.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<std::string_view, 2> encodings = {"derivatives", "differences"};
+constexpr std::array<std::string_view, 3> storages = {"compressed", "plain", "half_float"};
+constexpr std::array<Setting, 3> settings = {{
+    {"encoding",
+     "derivatives: partial derivatives, which add up as heights do; differences: differences of normals, which are "
+     "right "
+     "at full weight only",
+     encodings},
+    {"storage",
+     "compressed: RGTC2, one byte a texel; plain: two bytes; half_float: four, for comparison (differences need three "
+     "channels, so that for them compressed is plain)",
+     storages},
+    {.name = "least_pixels_a_mm",
+     .meaning = "size on the screen, in pixels a millimetre of skin, below which wrinkles are left out",
+     .lowest = 0,
+     .highest = 100,
+     .default_number = 0.1},
+}};
+
+bool any_wrinkle(const CharacterState& state) {
+    return std::ranges::any_of(state.pose.wrinkles, [](float weight) { return weight != 0; });
+}
+
+Need need(const CharacterState& state) {
+    if (!state.appearance.wrinkles) {
+        return {.on = false,
+                .reason = "the face has no wrinkle maps (blush bake wrinkles makes them)",
+                .can_be_forced = false};
+    }
+    if (!any_wrinkle(state)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
+    if (state.facts.skin_pixels_a_mm < state.settings.number("wrinkles", "least_pixels_a_mm")) {
+        return {.on = false,
+                .reason = "the face is so small on the screen that a fold is narrower than a pixel",
+                .omission = Omission::bounded,
+                .bound = 2,
+                .bound_unit = "CIEDE2000, mean over the face"};
+    }
+    return {.on = true, .reason = "some zone of the face is pressed together or smoothed"};
+}
+
+/// Shading does the work; what is declared here is what it reads.
+void declare(CharacterState& state) { wrinkle_textures(state); }
+
+std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
+    std::vector<Study> result;
+    std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
+    if (!probe || !probe->state().appearance.wrinkles) return result;
+
+    Study stored{"stored wrinkle map of the face, every zone at 0.7",
+                 "the map in single precision on the CPU",
+                 "degrees",
+                 {},
+                 probe};
+    for (std::size_t s = 0; s < storages.size(); ++s) {
+        Variant variant;
+        variant.label = "wrinkles.storage=" + std::string(storages[s]);
+        variant.is_default = s == 0;
+        const auto choose = [probe, s] { (void)probe->character().set("wrinkles.storage", storages[s]); };
+        choose();
+        variant.work = std::to_string(wrinkle_textures(probe->state()).bytes) + " bytes with masks";
+        variant.run = [probe, choose] {
+            choose();
+            probe->draw_normals(0.7F);
+        };
+        variant.error = [probe, choose] {
+            choose();
+            return probe->normal_error(0.7F);
+        };
+        stored.variants.push_back(std::move(variant));
+    }
+    result.push_back(std::move(stored));
+
+    Study combined{"normals of folds of 45 degrees on pores, at half weight, in 8 bits",
+                   "a displaced patch of skin in double precision (rig/wrinkle_error.h)",
+                   "degrees",
+                   {},
+                   probe};
+    for (std::size_t e = 0; e < encodings.size(); ++e) {
+        Variant variant;
+        variant.label = "wrinkles.encoding=" + std::string(encodings[e]);
+        variant.is_default = e == 0;
+        variant.work = e == 0 ? "2 channels" : "3 channels";
+        variant.run = [probe, e] {
+            (void)probe->character().set("wrinkles.encoding", encodings[e]);
+            probe->draw_normals(0.5F);
+        };
+        variant.error = [e] {
+            WrinkleErrorCase of;
+            of.encoding = static_cast<WrinkleEncoding>(e);
+            of.steepest_degrees = 45;
+            of.weight = 0.5;
+            const NormalError error = wrinkle_normal_error(of);
+            return Variant::Error{error.mean_degrees, error.worst_degrees};
+        };
+        combined.variants.push_back(std::move(variant));
+    }
+    result.push_back(std::move(combined));
+    return result;
+}
+
+constexpr std::array<HardCase, 1> hard_cases = {{
+    {"face without maps", "is drawn as it is", [](Face& /*face*/) {}},
+}};
+
+}  // namespace
+
+const Effect wrinkles_effect = {
+    .name = "wrinkles",
+    .what = "skin folds where the pose presses it together",
+    .settings = settings,
+    .stage = Stage::light,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

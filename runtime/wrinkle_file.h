@@ -1,0 +1,38 @@
+#pragma once
+/// Wrinkle maps on disk: wrinkles.png (partial derivatives in red and green; 128 is 0, 1 and 255 the ends of the
+/// range), wrinkle_mask_1.png and wrinkle_mask_2.png (four zones each, in red, green, blue and alpha), and
+/// wrinkles.json, which says what they hold. An artist may paint any of them over. No GL. Nothing here throws; a
+/// message names file, place and reason.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rig/derivative_map.h"
+#include "rig/map.h"
+#include "rig/result.h"
+
+namespace blush {
+
+/// Zones that two RGBA masks hold (jimenez-2012, 8.2).
+inline constexpr std::size_t most_wrinkle_zones = 8;
+
+struct WrinkleSet {
+    std::vector<std::string> zones;            ///< names as in Rig::wrinkle_zones(), no more than most_wrinkle_zones
+    DerivativeMap derivatives;                 ///< within +-range
+    std::vector<ScalarMap> masks;              ///< one a zone, of one size, 0 to 1
+    float range = published_derivative_range;  ///< above 0, to largest_derivative_range
+};
+
+/// 89.4 degrees; beyond it one step of 8 bits is most of the useful range.
+inline constexpr float largest_derivative_range = 100;
+
+/// Into a folder that exists. Error: more than most_wrinkle_zones, or a file that cannot be written.
+Status write_wrinkles(const std::filesystem::path& folder, const WrinkleSet& wrinkles);
+
+/// Of 8 or 16 bits, or floating point (.exr is looked for where there is no .png; its values are plain derivatives and
+/// weights). Texels that are not finite count as flat and as outside of every zone. Error: a map that is missing, has
+/// too few channels or more than 8,192 texels a side; masks of two sizes; unknown keys; a range out of its bounds.
+Result<WrinkleSet> load_wrinkles(const std::filesystem::path& folder);
+
+}  // namespace blush

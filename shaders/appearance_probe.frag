@@ -1,0 +1,22 @@
+// Appearance laid out flat: the wrinkled normal, or the colour that blood gives to white, over the texture. What studies
+// and tests compare with the CPU.
+#include "shared.glsl"
+#ifdef WRINKLES
+#include "wrinkles.glsl"
+#endif
+#ifdef BLOOD
+#include "blood.glsl"
+#endif
+
+in vec2 screen_uv;
+layout(location = 0) out vec4 result;
+
+void main() {
+    result = vec4(1.0);
+#ifdef WRINKLES
+    result = vec4(normalize(wrinkled(vec3(0.0, 0.0, 1.0), screen_uv, wrinkle_strength(screen_uv))), 1.0);
+#endif
+#ifdef BLOOD
+    result = vec4(flushed(vec3(1.0), screen_uv), 1.0);
+#endif
+}

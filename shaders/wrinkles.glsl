@@ -1,0 +1,23 @@
+// Wrinkles on the base normal (jimenez-2012, 8.2, listing 8.1). The zones share one map, so that their weighted masks are
+// summed before it is read: the eight additions of the listing become one.
+layout(binding = BLUSH_WRINKLE_MAP_UNIT) uniform sampler2D wrinkle_map;
+layout(binding = BLUSH_WRINKLE_MASK_1_UNIT) uniform sampler2D wrinkle_mask_1;
+layout(binding = BLUSH_WRINKLE_MASK_2_UNIT) uniform sampler2D wrinkle_mask_2;
+
+float wrinkle_strength(vec2 uv) {
+    return dot(texture(wrinkle_mask_1, uv), wrinkle_weights[0]) + dot(texture(wrinkle_mask_2, uv), wrinkle_weights[1]);
+}
+
+// `base`: a tangent-space normal of any length. A normal is its partial derivatives and 1, times its z: adding
+// derivatives needs no division. Derivatives of zero leave it as it is to the bit.
+vec3 wrinkled(vec3 base, vec2 uv, float strength) {
+#ifdef WRINKLE_DIFFERENCES
+    // 8.2.1: the base is of unit length when the difference is added to it.
+    float length2 = dot(base, base);
+    base = length2 > 1e-12 ? base * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
+    return base + texture(wrinkle_map, uv).xyz * strength;
+#else
+    base.xy += base.z * (texture(wrinkle_map, uv).xy * (strength * wrinkle_range.x));
+    return base;
+#endif
+}
