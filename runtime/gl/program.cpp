@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <set>
 #include <vector>
@@ -161,6 +163,16 @@ Result<Program> make_program(const ProgramSource& source) {
     }
     if (Status blocks = check_blocks(program.name(), source.vertex); !blocks) return blocks.error();
     return program;
+}
+
+void require_program(Program& program, const ProgramSource& source) {
+    if (program) return;
+    Result<Program> made = make_program(source);
+    if (!made) {
+        std::fprintf(stderr, "blush: %s\n", made.error().message.c_str());
+        std::abort();
+    }
+    program = *std::move(made);
 }
 
 }  // namespace blush::gl

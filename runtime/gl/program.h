@@ -25,6 +25,10 @@ struct ProgramSource {
 /// the permutation and the driver's log: it is a defect of the library or of the driver, never of the user's data.
 Result<Program> make_program(const ProgramSource& source);
 
+/// For programs that are made when a frame first needs them, where nobody can take an error: a failure is a defect, and
+/// ends the process with the sentence that make_program() would give.
+void require_program(Program& program, const ProgramSource& source);
+
 /// Compares each uniform block of shared.glsl that `program` has, as the driver laid it out, with its C++ struct.
 /// Error: the block or field that differs; `file` names the shader in it. make_program() asks this.
 Status check_blocks(GLuint program, std::string_view file);
