@@ -62,6 +62,11 @@
 #define BLUSH_AA_SEARCH_UNIT 3
 #define BLUSH_AA_WEIGHTS_UNIT 1
 
+// Storage block of the antialiasing passes: tiles with edges, and their side. Small tiles follow a contour closely,
+// large ones are fewer to draw; 8 was the fastest of 4, 8, 16 and 32 (bench_antialias, llvmpipe).
+#define BLUSH_AA_TILES_BINDING 0
+#define BLUSH_AA_TILE_PIXELS 8
+
 // Layout of the antialiasing tables; runtime/antialias/ holds them to rig/antialias/.
 #define BLUSH_ORTHOGONAL_DISTANCES 64
 #define BLUSH_DIAGONAL_DISTANCES 20

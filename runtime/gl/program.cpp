@@ -145,7 +145,11 @@ Result<Program> make_program(const ProgramSource& source) {
         glDeleteShader(*shader);  // deleted with the program
         return Done{};
     };
-    if (Status vertex = attach(GL_VERTEX_SHADER, source.vertex); !vertex) return vertex.error();
+    const bool computes = !source.compute.empty();
+    const std::string_view first = computes ? source.compute : source.vertex;
+    if (Status attached = attach(computes ? GL_COMPUTE_SHADER : GL_VERTEX_SHADER, first); !attached) {
+        return attached.error();
+    }
     if (!source.fragment.empty()) {
         if (Status fragment = attach(GL_FRAGMENT_SHADER, source.fragment); !fragment) return fragment.error();
     }
@@ -159,9 +163,9 @@ Result<Program> make_program(const ProgramSource& source) {
     if (ok != GL_TRUE) {
         std::array<char, 4096> log{};
         glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-        return Error{"program of " + std::string(source.vertex) + " does not link: " + log.data()};
+        return Error{"program of " + std::string(first) + " does not link: " + log.data()};
     }
-    if (Status blocks = check_blocks(program.name(), source.vertex); !blocks) return blocks.error();
+    if (Status blocks = check_blocks(program.name(), first); !blocks) return blocks.error();
     return program;
 }
 

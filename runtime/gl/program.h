@@ -15,10 +15,11 @@ inline void delete_program(GLuint name) { glDeleteProgram(name); }
 using Program = Object<delete_program>;
 
 struct ProgramSource {
-    std::string_view vertex;                         ///< file name in shaders/
+    std::string_view vertex = {};                    ///< file name in shaders/
     std::string_view fragment = {};                  ///< empty for stream-out
     std::span<const std::string_view> defines = {};  ///< permutation, such as "HAS_NORMAL_DELTAS"
     std::span<const char* const> streamed_out = {};  ///< vertex outputs captured, each into a buffer of its own
+    std::string_view compute = {};                   ///< file name of a compute program, which has no other stage
 };
 
 /// Compiles and links, and checks every uniform block of shared.glsl against its C++ struct. An error names the file,
