@@ -49,10 +49,11 @@ struct FrameResources {
     };
     std::array<Companion, 3> companions;
     std::uint32_t companion_count = 0;
-    ResourceId velocities{};  ///< rgba16f: speed, velocity x and y, of the frame's last picture (effects/velocities.cpp)
-    ResourceId speeds{};      ///< speeds as far as they have come: filtered, averaged
-    ResourceId display{};     ///< the picture as far as it has come: display values, or radiance
-    ResourceId target{};      ///< what the picture goes to: the view's framebuffer, or a texture for averaging
+    ResourceId
+        velocities{};      ///< rgba16f: speed, velocity x and y, of the frame's last picture (effects/velocities.cpp)
+    ResourceId speeds{};   ///< speeds as far as they have come: filtered, averaged
+    ResourceId display{};  ///< the picture as far as it has come: display values, or radiance
+    ResourceId target{};   ///< what the picture goes to: the view's framebuffer, or a texture for averaging
 };
 
 struct Effect;
@@ -86,13 +87,13 @@ struct CharacterState {
     SceneFacts facts;
     const SurfaceBuffers* surface = nullptr;  // the surface as far as it has come; in the end what is drawn
     const SurfaceBuffers* skin_source = nullptr;
-    Sampling sampling;         // of this frame
-    Camera camera;             // the view's, moved to where the picture being drawn is sampled
+    Sampling sampling;          // of this frame
+    Camera camera;              // the view's, moved to where the picture being drawn is sampled
     std::uint32_t picture = 0;  // the one being drawn, of sampling.pictures
     FrameGraph graph;
     FrameResources resources;
-    std::uint32_t images_left = 0;     // steps after the scene that have yet to declare themselves
-    std::uint32_t kept_at = 0;         // the image with so many steps after it is kept for the next frame; 0: none
+    std::uint32_t images_left = 0;  // steps after the scene that have yet to declare themselves
+    std::uint32_t kept_at = 0;      // the image with so many steps after it is kept for the next frame; 0: none
     std::vector<glm::mat4> world_from_node, skinned_from_mesh;
     gl::Program tone_program;
     gl::Framebuffer scene_framebuffer, resolved_framebuffer, output_framebuffer;

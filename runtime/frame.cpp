@@ -70,8 +70,8 @@ void count_images(CharacterState& state, const View& view, bool last_picture) {
     const bool keeps = last_picture && state.sampling.temporal;
     const std::uint32_t display_steps = last_picture && view.output == Output::display_srgb ? on(Stage::display) : 0;
     state.kept_at = keeps ? 1 + display_steps : 0;
-    state.images_left = on(Stage::filter) + (state.picture > 0 ? on(Stage::average) : 0) + (keeps ? 1 : 0) +
-                        display_steps;
+    state.images_left =
+        on(Stage::filter) + (state.picture > 0 ? on(Stage::average) : 0) + (keeps ? 1 : 0) + display_steps;
 }
 
 void run(CharacterState& state, const View& view) {
@@ -158,8 +158,8 @@ namespace {
 void declare_picture(CharacterState& state, const View& view) {
     const bool last_picture = state.picture + 1 == state.sampling.pictures;
     const std::uint32_t phase = state.own<LastFrame>().phase;
-    state.camera = jittered(view.camera, state.sampling.sample_offset_pixels(state.picture, phase), view.width,
-                            view.height);
+    state.camera =
+        jittered(view.camera, state.sampling.sample_offset_pixels(state.picture, phase), view.width, view.height);
     if (state.picture == 0) {
         import_surface(state, state.morphed());
         declare_stage(state, Stage::surface);
@@ -211,6 +211,7 @@ void draw_frame(CharacterState& state, const View& view) {
     const auto largest = static_cast<std::uint32_t>(std::max(1, state.device.info().largest_sample_count));
     state.sampling = find_sampling(state.settings, view, largest, !state.face.indices.empty());
     find_last_frame(state, view);
+    state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
     find_needs(state);
     begin_pictures(state);
     for (state.picture = 0; state.picture < state.sampling.pictures; ++state.picture) {

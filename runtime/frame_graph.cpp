@@ -38,7 +38,8 @@ ResourceId FrameGraph::import_buffer(std::string_view name, std::uint32_t handle
 }
 
 ResourceId FrameGraph::import_framebuffer(std::string_view name, std::uint32_t handle, const TextureShape& shape) {
-    return add_resource({.name = name, .kind = ResourceKind::framebuffer, .shape = shape, .handle = handle, .imported = true});
+    return add_resource(
+        {.name = name, .kind = ResourceKind::framebuffer, .shape = shape, .handle = handle, .imported = true});
 }
 
 void FrameGraph::add_pass(std::string_view name, std::function<void(const FrameGraph&)> run) {

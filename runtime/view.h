@@ -24,7 +24,7 @@ struct View {
     std::uint32_t width = 0, height = 0;  ///< pixels, of the framebuffer
     std::uint32_t framebuffer = 0;        ///< GL name; 0: the default framebuffer
     Output output = Output::display_srgb;
-    float exposure = 1;         ///< factor on radiance before the filmic curve
+    float exposure = 1;  ///< factor on radiance before the filmic curve
     /// Of multisampling, where the setting antialiasing.mode leaves it to the view; clamped to what the device has.
     std::uint32_t samples = 4;
     /// Nothing of the frame before may show: the first frame after a cut, a seek or a jump of the camera. (A view of

@@ -25,9 +25,9 @@ struct Stance {
 
 /// A frame before it was blended with the one before it.
 struct KeptImage {
-    gl::Texture color;   ///< display values, or radiance
-    gl::Texture speeds;  ///< r16f: lengths of the velocities, filtered along with the colour
-    TextureShape shape;  ///< of color
+    gl::Texture color;        ///< display values, or radiance
+    gl::Texture speeds;       ///< r16f: lengths of the velocities, filtered along with the colour
+    TextureShape shape;       ///< of color
     bool has_speeds = false;  ///< false: nothing moved, every speed is zero
 };
 
@@ -36,7 +36,7 @@ struct LastFrame {
     Sampling sampling;
     std::uint32_t phase = 0;  ///< of this frame: 0 and 1 in turn
     Stance stance;
-    gl::Buffer positions;            ///< of every vertex, as the last frame's surface passes left them
+    gl::Buffer positions;             ///< of every vertex, as the last frame's surface passes left them
     std::array<KeptImage, 2> images;  ///< [phase]: of this frame, [1 - phase]: of the last
 };
 

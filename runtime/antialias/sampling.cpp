@@ -24,10 +24,13 @@ glm::vec2 Sampling::sample_offset_pixels(std::uint32_t picture, std::uint32_t ph
         case AntialiasingMode::smaa_t2x:
             return temporal ? of_two(phase) : glm::vec2(0);
         case AntialiasingMode::smaa_4x: {
-            // Figure 10.11, right: the two samples of S2x, moved along the other diagonal by an eighth of a pixel: the
-            // four places of the usual rotated grid.
-            const float along = phase == 0 ? 0.125F : -0.125F;
-            return of_two(picture) + (temporal ? glm::vec2(along) : glm::vec2(0));
+            if (!temporal) return of_two(picture);
+            // The rotated grid of four, a pair of opposite places a frame. (Figure 10.11 moves the pair of S2x by an
+            // eighth of a pixel along the other diagonal, which is what samples at fixed places of a multisampled
+            // target allow: it crowds the four along one diagonal, and moves the picture from frame to frame where the
+            // last frame has no share. Ours are drawn, so they may stand anywhere.)
+            const glm::vec2 place = phase == 0 ? glm::vec2(-0.125F, -0.375F) : glm::vec2(-0.375F, 0.125F);
+            return picture == 0 ? place : -place;
         }
         case AntialiasingMode::supersampled: {
             std::uint32_t side = 1;

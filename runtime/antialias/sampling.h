@@ -1,6 +1,6 @@
 #pragma once
-/// How a frame is sampled: multisampling, pictures drawn from several places in the pixel, places that change from frame
-/// to frame. Found once a frame, from the settings and the view; everything else asks here.
+/// How a frame is sampled: multisampling, pictures drawn from several places in the pixel, places that change from
+/// frame to frame. Found once a frame, from the settings and the view; everything else asks here.
 
 #include <array>
 #include <cstdint>

@@ -24,7 +24,8 @@ constexpr double of_preset = -1;
 
 constexpr std::array<Setting, 12> settings = {{
     {"mode",
-     "view: multisampling with View::samples; none: one sample a pixel; msaa2, msaa4: multisampling; mlaa: the filter of "
+     "view: multisampling with View::samples; none: one sample a pixel; msaa2, msaa4: multisampling; mlaa: the filter "
+     "of "
      "2011; smaa_1x: SMAA's filter; smaa_s2x: on two pictures a frame; smaa_t2x: on pictures of two places in turn; "
      "smaa_4x: both; supersampled: the mean of supersampling.factor squared pictures",
      antialiasing_modes, static_cast<std::uint8_t>(AntialiasingMode::view)},
@@ -62,8 +63,8 @@ constexpr std::array<Setting, 12> settings = {{
      .lowest = 0,
      .highest = 1,
      .default_number = static_cast<double>(EdgeSettings{}.depth_threshold)},
-    {"predication", "off: one threshold; on: a lower one on silhouettes and a higher one elsewhere", predication_choices,
-     0},
+    {"predication", "off: one threshold; on: a lower one on silhouettes and a higher one elsewhere",
+     predication_choices, 0},
     {.name = "predication_scale",
      .meaning = "factor on the threshold under predication",
      .lowest = 1,
@@ -118,8 +119,8 @@ void find_settings(CharacterState& state, Antialiasing& own) {
     own.smaa = smaa_preset(static_cast<SmaaPreset>(all.choice("antialiasing", "preset")));
     own.smaa.edges = edge_settings(all, own.smaa.edges);
     own.smaa.search_steps = steps_or(all, "search_steps", 1, largest_search_steps, own.smaa.search_steps);
-    own.smaa.diagonal_search_steps = steps_or(all, "diagonal_search_steps", 0, largest_diagonal_search_steps,
-                                              own.smaa.diagonal_search_steps);
+    own.smaa.diagonal_search_steps =
+        steps_or(all, "diagonal_search_steps", 0, largest_diagonal_search_steps, own.smaa.diagonal_search_steps);
     own.smaa.corner_rounding = number_or(all, "corner_rounding", own.smaa.corner_rounding);
     own.mlaa = {};
     own.mlaa.edges = edge_settings(all, own.mlaa.edges);
@@ -200,7 +201,7 @@ void declare_speeds(CharacterState& state, ResourceId weights) {
     const TextureShape shape{PixelFormat::r16f, state.view->width, state.view->height, 1};
     const bool first_of_two = state.picture + 1 < state.sampling.pictures;
     const ResourceId from = state.resources.velocities;
-    const ResourceId to = first_of_two                    ? first_speeds_store(state, shape, state.graph)
+    const ResourceId to = first_of_two                   ? first_speeds_store(state, shape, state.graph)
                           : state.sampling.pictures == 1 ? import_kept_speeds(state)
                                                          : state.graph.texture("speeds", shape);
     state.own<Antialiasing>().speeds = {from, weights, to};
@@ -230,22 +231,29 @@ void declare(CharacterState& state) {
     if (state.on(velocities_effect)) declare_speeds(state, weights);
 }
 
+constexpr StudiedMode preset(std::string_view label, std::string_view choice) {
+    return {.label = label,
+            .work = "one sample, filtered",
+            .mode = "smaa_1x",
+            .setting = "antialiasing.preset",
+            .choice = choice};
+}
+
 constexpr std::array<StudiedMode, 11> studied = {{
-    {"antialiasing.mode=none", "one sample", {{"antialiasing.mode", "none"}}},
-    {"antialiasing.mode=msaa4", "multisampled", {{"antialiasing.mode", "msaa4"}}, 1, true},
-    {"antialiasing.mode=mlaa", "one sample, filtered", {{"antialiasing.mode", "mlaa"}}},
-    {"antialiasing.preset=low", "one sample, filtered", {{"antialiasing.mode", "smaa_1x"}, {"antialiasing.preset", "low"}}},
-    {"antialiasing.preset=medium",
-     "one sample, filtered",
-     {{"antialiasing.mode", "smaa_1x"}, {"antialiasing.preset", "medium"}}},
-    {"antialiasing.mode=smaa_1x", "one sample, filtered", {{"antialiasing.mode", "smaa_1x"}}},
-    {"antialiasing.preset=ultra",
-     "one sample, filtered",
-     {{"antialiasing.mode", "smaa_1x"}, {"antialiasing.preset", "ultra"}}},
-    {"antialiasing.mode=smaa_s2x", "two samples, each filtered", {{"antialiasing.mode", "smaa_s2x"}}},
-    {"antialiasing.mode=smaa_t2x", "one sample and the last frame's, filtered", {{"antialiasing.mode", "smaa_t2x"}}, 2},
-    {"antialiasing.mode=smaa_4x", "two samples and the last frame's, filtered", {{"antialiasing.mode", "smaa_4x"}}, 2},
-    {"antialiasing.mode=supersampled", "16 samples", {{"antialiasing.mode", "supersampled"}}},
+    {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
+    {.label = "antialiasing.mode=msaa4", .work = "4 samples", .mode = "msaa4", .is_default = true},
+    {.label = "antialiasing.mode=mlaa", .work = "one sample, filtered", .mode = "mlaa"},
+    preset("smaa_1x, preset low", "low"),
+    preset("smaa_1x, preset medium", "medium"),
+    preset("smaa_1x, preset high", "high"),
+    preset("smaa_1x, preset ultra", "ultra"),
+    {.label = "antialiasing.mode=smaa_s2x", .work = "two pictures, filtered", .mode = "smaa_s2x"},
+    {.label = "antialiasing.mode=smaa_t2x", .work = "two frames, filtered", .mode = "smaa_t2x", .frames = 2},
+    {.label = "antialiasing.mode=smaa_4x",
+     .work = "two frames of two pictures, filtered",
+     .mode = "smaa_4x",
+     .frames = 2},
+    {.label = "antialiasing.mode=supersampled", .work = "16 pictures", .mode = "supersampled"},
 }};
 
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
@@ -255,7 +263,9 @@ std::vector<Study> studies(const Device& device, const Face& face, double /*mill
 /// Whatever the settings under test, through the filter with all that it has.
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"light beyond half precision behind the face", "edges and weights stay in range", [](Face&) {}, 1,
-     [](View& view) { view.background_linear = {60000, 60000, 60000, 1}; }},
+     [](View& view) {
+         view.background_linear = {60000, 60000, 60000, 1};
+     }},
     {"a picture of one pixel", "no neighbour is read that is not there", [](Face&) {}, 1,
      [](View& view) { view.width = view.height = 1; }},
 }};

@@ -74,17 +74,27 @@ void declare(CharacterState& state) {
 
 /// The settings of the study of antialiasing compare both ways to resolve with everything else.
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {{{"view", "one sample", {{"antialiasing.mode", "none"}}},
-                                                   {"average", "", {{"multisampling.resolve", "average"}}, 1, true},
-                                                   {"hdr", "", {{"multisampling.resolve", "hdr"}}}}};
+    constexpr std::array<StudiedMode, 3> modes = {{
+        {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
+        {.label = "multisampling.resolve=average", .work = "4 samples", .mode = "msaa4", .is_default = true},
+        {.label = "multisampling.resolve=hdr",
+         .work = "4 samples",
+         .mode = "msaa4",
+         .setting = "multisampling.resolve",
+         .choice = "hdr"},
+    }};
     return antialiasing_studies(device, face, modes);
 }
 
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"light beyond half precision behind the face", "the resolve stays finite", [](Face&) {}, 1,
-     [](View& view) { view.background_linear = {60000, 60000, 60000, 1}; }},
+     [](View& view) {
+         view.background_linear = {60000, 60000, 60000, 1};
+     }},
     {"negative radiance behind the face", "weights stay between 0 and 1", [](Face&) {}, 1,
-     [](View& view) { view.background_linear = {-5, 0, 0, 1}; }},
+     [](View& view) {
+         view.background_linear = {-5, 0, 0, 1};
+     }},
 }};
 
 }  // namespace

@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::array<Setting, 1> settings = {{
     {.name = "falloff",
-     .meaning = "K of equation 10.6: how fast the last frame's share falls where speeds differ, for speeds in pictures a "
-                "frame; 0 blends everywhere and leaves ghosts",
+     .meaning =
+         "K of equation 10.6: how fast the last frame's share falls where speeds differ, for speeds in pictures a "
+         "frame; 0 blends everywhere and leaves ghosts",
      .lowest = 0,
      .highest = 1000,
      .default_number = 30},  // jimenez-2012, 10.4.4: "a value of 30 for all our examples"
@@ -25,7 +26,9 @@ struct Reprojection {
 };
 
 Need need(const CharacterState& state) {
-    const auto off = [](std::string_view reason) { return Need{.on = false, .reason = reason, .can_be_forced = false}; };
+    const auto off = [](std::string_view reason) {
+        return Need{.on = false, .reason = reason, .can_be_forced = false};
+    };
     const auto mode = static_cast<AntialiasingMode>(state.settings.choice("antialiasing", "mode"));
     const bool asked = mode == AntialiasingMode::smaa_t2x || mode == AntialiasingMode::smaa_4x;
     if (!asked) return off("antialiasing.mode takes nothing from the last frame");
@@ -33,7 +36,8 @@ Need need(const CharacterState& state) {
         return off("there are no velocities (velocities.source=none): every frame stands alone");
     }
     if (!state.sampling.temporal) return off("the face has nothing to draw");
-    if (!state.facts.has_last_frame) return off("there is no last frame of this size and mode: it is the first, or a cut");
+    if (!state.facts.has_last_frame)
+        return off("there is no last frame of this size and mode: it is the first, or a cut");
     return {.on = true, .reason = "antialiasing.mode takes half of its samples from the last frame"};
 }
 
@@ -66,10 +70,15 @@ void declare(CharacterState& state) {
 }
 
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {
-        {{"antialiasing.mode=smaa_1x", "one frame alone", {{"antialiasing.mode", "smaa_1x"}}},
-         {"reprojection of T2x", "two frames", {{"antialiasing.mode", "smaa_t2x"}}, 2, true},
-         {"reprojection of 4x", "two frames of two pictures", {{"antialiasing.mode", "smaa_4x"}}, 2}}};
+    constexpr std::array<StudiedMode, 3> modes = {{
+        {.label = "antialiasing.mode=smaa_1x", .work = "one frame alone", .mode = "smaa_1x"},
+        {.label = "antialiasing.mode=smaa_t2x",
+         .work = "two frames",
+         .mode = "smaa_t2x",
+         .frames = 2,
+         .is_default = true},
+        {.label = "antialiasing.mode=smaa_4x", .work = "two frames of two pictures", .mode = "smaa_4x", .frames = 2},
+    }};
     return antialiasing_studies(device, face, modes);
 }
 

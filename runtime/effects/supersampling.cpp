@@ -1,11 +1,12 @@
 /// Several pictures of one frame, each drawn whole from its own place in the pixel, and their mean.
 ///
-/// Not one picture of many times the size: each picture is what the frame would be with one sample a pixel, so that what
-/// works in pixels (scattering, morphological filters) does there what it does in the modes that are compared with it;
-/// memory does not grow with the number of pictures; and no device is too small for it.
+/// Not one picture of many times the size: each picture is what the frame would be with one sample a pixel, so that
+/// what works in pixels (scattering, morphological filters) does there what it does in the modes that are compared with
+/// it; memory does not grow with the number of pictures; and no device is too small for it.
 
 #include <array>
 
+#include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
@@ -49,7 +50,8 @@ void declare(CharacterState& state) {
         const bool encoded = state.view->output == Output::display_srgb;
         const bool last = state.picture + 1 == state.sampling.pictures;
         bind_output(state, graph, to);
-        average(state, pictures_so_far(state), graph[from].handle, {encoded && state.picture == 1, encoded, encoded && last});
+        average(state, pictures_so_far(state), graph[from].handle,
+                {encoded && state.picture == 1, encoded, encoded && last});
     };
     state.graph.pass("average pictures", mean).reads(images.from).writes(images.to);
     if (!state.on(velocities_effect)) return;
@@ -65,14 +67,15 @@ void declare(CharacterState& state) {
 }
 
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {
-        {{"antialiasing.mode=none", "1 picture", {{"antialiasing.mode", "none"}}},
-         {"supersampling.factor=2", "4 pictures", {{"antialiasing.mode", "supersampled"}, {"supersampling.factor", "2"}}},
-         {"supersampling.factor=4",
-          "16 pictures",
-          {{"antialiasing.mode", "supersampled"}, {"supersampling.factor", "4"}},
-          1,
-          true}}};
+    constexpr std::array<StudiedMode, 3> modes = {{
+        {.label = "antialiasing.mode=none", .work = "1 picture", .mode = "none"},
+        {.label = "supersampling.factor=2",
+         .work = "4 pictures",
+         .mode = "supersampled",
+         .setting = "supersampling.factor",
+         .choice = "2"},
+        {.label = "supersampling.factor=4", .work = "16 pictures", .mode = "supersampled", .is_default = true},
+    }};
     return antialiasing_studies(device, face, modes);
 }
 

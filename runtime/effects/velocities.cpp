@@ -6,6 +6,7 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
+#include "runtime/gl/shared_blocks.h"
 
 namespace blush {
 namespace {
@@ -53,9 +54,7 @@ void bind_surfaces(CharacterState& state, Velocities& own, const LastFrame& last
     glVertexArrayElementBuffer(own.vertex_array.name(), state.model.indices.name());
 }
 
-void set_matrix(GLint location, const glm::mat4& matrix) {
-    glUniformMatrix4fv(location, 1, GL_FALSE, &matrix[0].x);
-}
+void set_matrix(GLint location, const glm::mat4& matrix) { glUniformMatrix4fv(location, 1, GL_FALSE, &matrix[0].x); }
 
 /// What blends is passed over: its velocity is that of what is behind it.
 void draw_primitive(CharacterState& state, const Velocities& own, const LastFrame& last, std::size_t node,
@@ -63,8 +62,8 @@ void draw_primitive(CharacterState& state, const Velocities& own, const LastFram
     const Material* material =
         primitive.material >= 0 ? &state.face.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
     if (primitive.index_count == 0 || (material != nullptr && material->alpha_mode == AlphaMode::blend)) return;
-    const bool alpha_test = material != nullptr && material->alpha_mode == AlphaMode::mask &&
-                            material->base_color.image >= 0;
+    const bool alpha_test =
+        material != nullptr && material->alpha_mode == AlphaMode::mask && material->base_color_srgb.image >= 0;
     if (alpha_test) state.model.bind_material(state.face, primitive.material);
     glUseProgram(own.programs[alpha_test ? 1 : 0].name());
 
