@@ -1,6 +1,7 @@
 #pragma once
 /// What a Character holds: the inside that effects, passes and the frame share.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +11,7 @@
 
 #include "rig/head_and_eyes.h"
 #include "rig/rig.h"
+#include "runtime/antialias/sampling.h"
 #include "runtime/device.h"
 #include "runtime/effect_settings.h"
 #include "runtime/face_model.h"
@@ -31,6 +33,9 @@ struct SceneFacts {
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
     bool forced = false;
+    // Of temporal antialiasing; false in other modes.
+    bool has_last_frame = false;  ///< the last frame can be compared with this one
+    bool moves = false;           ///< ... and some point may stand elsewhere on the screen than in it
 };
 
 /// Resources of the frame that passes hand on to one another.
@@ -38,8 +43,17 @@ struct FrameResources {
     ResourceId positions{}, normals{}, tangents{};                          ///< the surface as far as it has come
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
-    ResourceId display{};  ///< the display image as far as it has come
-    ResourceId target{};   ///< the view's framebuffer
+    /// Further multisampled images of the scene, which are resolved with the weights of the scene's colour.
+    struct Companion {
+        ResourceId multisampled{}, resolved{};
+    };
+    std::array<Companion, 3> companions;
+    std::uint32_t companion_count = 0;
+    ResourceId
+        velocities{};      ///< rgba16f: speed, velocity x and y, of the frame's last picture (effects/velocities.cpp)
+    ResourceId speeds{};   ///< speeds as far as they have come: filtered, averaged
+    ResourceId display{};  ///< the picture as far as it has come: display values, or radiance
+    ResourceId target{};   ///< what the picture goes to: the view's framebuffer, or a texture for averaging
 };
 
 struct Effect;
@@ -73,9 +87,13 @@ struct CharacterState {
     SceneFacts facts;
     const SurfaceBuffers* surface = nullptr;  // the surface as far as it has come; in the end what is drawn
     const SurfaceBuffers* skin_source = nullptr;
+    Sampling sampling;          // of this frame
+    Camera camera;              // the view's, moved to where the picture being drawn is sampled
+    std::uint32_t picture = 0;  // the one being drawn, of sampling.pictures
     FrameGraph graph;
     FrameResources resources;
-    std::uint32_t display_effects_left = 0;  // of those that are on, how many have yet to declare themselves
+    std::uint32_t images_left = 0;  // steps after the scene that have yet to declare themselves
+    std::uint32_t kept_at = 0;      // the image with so many steps after it is kept for the next frame; 0: none
     std::vector<glm::mat4> world_from_node, skinned_from_mesh;
     gl::Program tone_program;
     gl::Framebuffer scene_framebuffer, resolved_framebuffer, output_framebuffer;

@@ -93,6 +93,7 @@ protected:
     }
 
     std::unique_ptr<AntialiasPasses> passes_;
+    EdgeTiles tiles_;
 };
 
 TEST_F(AntialiasPassesTest, EqualTheirTwinsOnEveryPicture) {
@@ -109,18 +110,18 @@ TEST_F(AntialiasPassesTest, EqualTheirTwinsOnEveryPicture) {
             const PictureMeaning meaning;
             const EdgeMap expected_edges = find_edges(picture.pixels, {}, settings.edges, meaning);
             const WeightMap expected_weights = blush::smaa_weights(expected_edges, settings);
-            passes_->edges(color.texture.name(), 0, settings.edges, meaning, edges.target());
+            passes_->edges(color.texture.name(), 0, settings.edges, meaning, tiles_, edges.target());
             EXPECT_EQ(read_edges(edges).cells, expected_edges.cells);
-            passes_->smaa_weights(edges.texture.name(), settings, SubsampleSlices(0), weights.target());
+            passes_->smaa_weights(edges.texture.name(), settings, SubsampleSlices(0), tiles_, weights.target());
             EXPECT_LE(worst_difference(weights, expected_weights), 0);
-            passes_->blend(color.texture.name(), weights.texture.name(), meaning, out.target());
+            passes_->blend(color.texture.name(), weights.texture.name(), meaning, tiles_, out.target());
             EXPECT_LE(worst_difference(out, blend_neighbors(picture.pixels, expected_weights, meaning)), 1 / 255.0);
         }
         const MlaaSettings settings;
         const EdgeMap expected_edges = find_edges(picture.pixels, {}, settings.edges, {});
-        passes_->edges(color.texture.name(), 0, settings.edges, {}, edges.target());
+        passes_->edges(color.texture.name(), 0, settings.edges, {}, tiles_, edges.target());
         EXPECT_EQ(read_edges(edges).cells, expected_edges.cells);
-        passes_->mlaa_weights(edges.texture.name(), settings, weights.target());
+        passes_->mlaa_weights(edges.texture.name(), settings, tiles_, weights.target());
         EXPECT_LE(worst_difference(weights, blush::mlaa_weights(expected_edges, settings)), 0);
     }
 }
@@ -142,7 +143,7 @@ TEST_F(AntialiasPassesTest, FindEdgesOfEverySourceAsTheirTwin) {
                     settings.source = source;
                     settings.predication.on = on;
                     const PictureMeaning meaning{on ? Transfer::linear : Transfer::srgb, alpha, true};
-                    passes_->edges(color.texture.name(), depth_surface.texture.name(), settings, meaning,
+                    passes_->edges(color.texture.name(), depth_surface.texture.name(), settings, meaning, tiles_,
                                    edges.target());
                     EXPECT_EQ(read_edges(edges).cells, find_edges(picture.pixels, depth, settings, meaning).cells)
                         << static_cast<int>(source) << static_cast<int>(alpha) << on;

@@ -76,7 +76,7 @@ int explain(const Options& options) {
     View view = offscreen->view();
     view.camera = character.framing(1).camera(1);
     view.check_finite = options.check_finite;
-    const FrameReport& report = character.draw(view);
+    const FrameReport& report = draw_alone(character, view);
     if (const int found = report_not_finite(report); found != 0) return found;
     const Json json = describe(character.face(), report);
     if (options.json) {

@@ -125,6 +125,13 @@ Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const Po
     return stage;
 }
 
+const FrameReport& draw_alone(Character& character, View view) {
+    view.cut = true;
+    const FrameReport& report = character.draw(view);
+    view.cut = false;
+    return report.incomplete ? character.draw(view) : report;
+}
+
 int report_not_finite(const FrameReport& report) {
     return report.not_finite ? fail({"--check-finite: " + report.not_finite->sentence()}) : 0;
 }

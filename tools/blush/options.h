@@ -51,6 +51,9 @@ struct Stage {
 };
 Result<std::unique_ptr<Stage>> make_stage(const std::string& face, const PoseOptions& pose);
 
+/// Draws a picture that stands alone: what was drawn before does not show, and a mode that needs two frames gets them.
+const FrameReport& draw_alone(Character& character, View view);
+
 /// Prints the finding of --check-finite and returns bad_input; 0 when there is none.
 int report_not_finite(const FrameReport& report);
 

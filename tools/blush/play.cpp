@@ -78,9 +78,10 @@ public:
         view_.camera = orbit.camera(aspect);
         view_.check_finite = options.check_finite;
     }
-    Result<Image> frame_at(double time_seconds) {
+    /// alone: not the frame after the one drawn before.
+    Result<Image> frame_at(double time_seconds, bool alone) {
         playback_.seek(static_cast<float>(time_seconds));
-        const FrameReport& report = stage_.character.draw(view_);
+        const FrameReport& report = alone ? draw_alone(stage_.character, view_) : stage_.character.draw(view_);
         if (report.not_finite) {
             return Error{"--check-finite: at " + std::to_string(time_seconds) + " s " + report.not_finite->sentence()};
         }
@@ -105,7 +106,7 @@ Status write_frames(FrameSource& source, const Options& options, const Range& ra
                              std::to_string(range.frames) + " frames"};
             }
             const double time = range.from_seconds + static_cast<double>(f) / options.frames_a_second;
-            const Result<Image> image = source.frame_at(time);
+            const Result<Image> image = source.frame_at(time, f == 0);
             if (!image) return image.error();
             if (Status kept = keep(f, *image); !kept) return kept;
             progress.step();
@@ -158,7 +159,7 @@ Status write_contact_sheet(FrameSource& source, const Options& options, const Ra
         // The middles of eight equal parts: the ends of a performance are mostly neutral.
         const double share = (moment + 0.5) / (columns * rows);
         const Result<Image> image =
-            source.frame_at(range.from_seconds + share * (range.to_seconds - range.from_seconds));
+            source.frame_at(range.from_seconds + share * (range.to_seconds - range.from_seconds), true);
         if (!image) return image.error();
         if (sheet.bytes.empty()) {
             sheet.width = columns * image->width;

@@ -38,7 +38,7 @@ int render(const Options& options) {
     view.check_finite = options.check_finite;
     view.force_effects = options.force_effects;
 
-    if (const int found = report_not_finite(character.draw(view)); found != 0) return found;
+    if (const int found = report_not_finite(draw_alone(character, view)); found != 0) return found;
     if (Status written = write_image(options.output, offscreen->read()); !written) return fail(written.error());
     std::cout << options.output << ": " << options.size << (linear ? ", linear radiance\n" : ", sRGB\n");
     return 0;

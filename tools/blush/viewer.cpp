@@ -116,7 +116,12 @@ private:
         const Size pixels = window_.pixels();
         if (pixels.width == 0 || pixels.height == 0) return 0;
 
-        const Place here = place(pixels);
+        Place here = place(pixels);
+        // A jump in time is a cut: the end of the loop, or a hand on the time line.
+        constexpr double longest_frame_seconds = 0.25;
+        const double passed_seconds = (state_.clock.time_seconds - drawn_time_seconds_) / state_.clock.speed;
+        here.view.cut = passed_seconds < 0 || passed_seconds > longest_frame_seconds;
+        drawn_time_seconds_ = state_.clock.time_seconds;
         const FrameReport& report = character_.draw(here.view);
         if (const int found = report_not_finite(report); found != 0) return found;
         panel_.draw({character_, report, frame_milliseconds_}, state_);
@@ -144,7 +149,7 @@ private:
         }
         View view = offscreen->view();
         view.camera = state_.camera.camera(aspect_of(size));
-        character_.draw(view);
+        draw_alone(character_, view);
         if (Status written = write_image(path, offscreen->read()); !written) {
             fail(written.error());
             return;
@@ -174,6 +179,7 @@ private:
     int frames_since_event_ = 0, frames_drawn_ = 0;
     Size last_drawn_;  // pixels
     float frame_milliseconds_ = 0;
+    double drawn_time_seconds_ = 0;
 };
 
 }  // namespace
