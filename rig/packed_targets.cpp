@@ -195,7 +195,8 @@ PackedTargets::PackedTargets(const Face& face, const PackOptions& options)
     for (const Target& target : face.targets) {
         position_packer.add_target(target.vertices, target.position_deltas, [&](std::size_t i) {
             if (options.drop_below == 0) return true;
-            const bool keep = glm::length(glm::dvec3(target.position_deltas[i])) > static_cast<double>(options.drop_below);
+            const bool keep =
+                glm::length(glm::dvec3(target.position_deltas[i])) > static_cast<double>(options.drop_below);
             dropped += keep ? 0U : 1U;
             return keep;
         });
