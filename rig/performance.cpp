@@ -124,6 +124,8 @@ private:
 
 }  // namespace
 
+float reading_seconds(std::string_view text) { return std::max(1.0F, static_cast<float>(text.size()) / 15); }
+
 Performance performance_from_animations(const Face& face, std::optional<std::size_t> index) {
     Performance result;
     if (index && *index >= face.animations.size()) {

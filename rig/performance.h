@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rig/face.h"
@@ -53,6 +54,10 @@ struct Marker {
     std::string text;   ///< words to be seen; empty: none
     float text_seconds = 0;
 };
+
+/// How long words should be seen: about 15 characters a second are read with ease (subtitling practice), and nothing in
+/// less than a second.
+float reading_seconds(std::string_view text);
 
 struct Performance {
     std::string name;

@@ -197,8 +197,7 @@ private:
             if (Status read = read_seconds(object, path, "time", marker.time_seconds); !read) return read;
             if (Status read = read_text(object, path, "event", marker.event); !read) return read;
             if (Status read = read_text(object, path, "text", marker.text); !read) return read;
-            // About 15 characters a second can be read with ease (subtitling practice), and nothing in under a second.
-            marker.text_seconds = marker.text.empty() ? 0 : std::max(1.0F, static_cast<float>(marker.text.size()) / 15);
+            marker.text_seconds = marker.text.empty() ? 0 : reading_seconds(marker.text);
             if (Status read = read_seconds(object, path, "seconds", marker.text_seconds); !read) return read;
             if (marker.event.empty() && marker.text.empty()) {
                 return error(path + ": needs an 'event', a 'text', or both");
