@@ -42,8 +42,8 @@ TEST_F(Cli, EmotionsAndStatesPoseTheFace) {
 }
 
 TEST_F(Cli, EmotionsAndStatesAreToldApart) {
-    expect_refused("evaluate face.glb -o x.ply --emotion jya=1",
-                   "--emotion jya=1: face.glb has no emotion \"jya\" (did you mean \"joy\"?)");
+    expect_refused("evaluate face.glb -o x.ply --emotion jyo=1",
+                   "--emotion jyo=1: face.glb has no emotion \"jyo\" (did you mean \"joy\"?)");
     expect_refused("evaluate face.glb -o x.ply --emotion blush=1",
                    "--emotion blush=1: face.glb has no emotion \"blush\"");
     expect_refused("evaluate face.glb -o x.ply --emotion jawOpen=1",
