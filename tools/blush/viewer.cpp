@@ -194,6 +194,8 @@ int run_viewer(const ViewerOptions& options) {
     // All input first: a bad file should not flash a window.
     Result<Face> face = load_face(face_path(options.face));
     if (!face) return fail(face.error());
+    const Result<RigDescription> description = describe_rig(*face, options.pose);
+    if (!description) return fail(description.error());
     Result<Performance> performance = find_performance(*face, options.performance);
     if (!performance) return fail(performance.error());
     const Result<PlaybackClock> clock =
@@ -204,7 +206,7 @@ int run_viewer(const ViewerOptions& options) {
     if (!window) return fail(window.error());
     Result<Device> device = Device::adopt_current();
     if (!device) return fail(device.error());
-    Result<Character> character = Character::create(*device, *std::move(face));
+    Result<Character> character = Character::create(*device, *std::move(face), *description);
     if (!character) return fail(character.error());
     if (Status set = options.pose.apply(character->face(), character->rig(), character->controls()); !set) {
         return fail(set.error());
