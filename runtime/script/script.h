@@ -73,7 +73,8 @@ public:
     Status restart();
 
     double now_seconds() const;
-    /// No task waits and no event can begin one: nothing will happen any more, except motions coming to their ends.
+    /// No task waits for its time and nothing repeats: without an event nothing will happen any more, except motions
+    /// coming to their ends.
     bool ended() const;
     bool stopped_by_error() const;
     /// When the last motion, caption or performance so far begun will have come to its end.
