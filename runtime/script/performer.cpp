@@ -153,7 +153,7 @@ std::string_view Performer::caption() const {
     return words;
 }
 
-std::optional<double> Performer::find_end(double most_seconds) {
+Result<std::optional<double>> Performer::find_end(double most_seconds) {
     State& state = *state_;
     double end = state.parts.timeline ? static_cast<double>(state.parts.timeline->duration_seconds()) : 0;
     if (state.parts.script) {
@@ -162,19 +162,23 @@ std::optional<double> Performer::find_end(double most_seconds) {
             last_event = std::max(last_event, static_cast<double>(marker.time_seconds));
         }
         Script& script = *state.parts.script;
+        script.mute();
         constexpr double look_seconds = 0.25;
         double now = 0;
         for (; now <= most_seconds; now += look_seconds) {
-            if (!seek(now)) break;  // the error is told when the time comes to play it
+            if (Status played = seek(now); !played) {
+                state.restart();
+                return played.error();
+            }
             if (script.ended() && now >= last_event) break;
         }
         const bool ended = script.ended();
         end = std::max({end, last_event, script.settled_seconds()});
         state.restart();
         state.sought_seconds = 0;
-        if (!ended) return std::nullopt;
+        if (!ended) return std::optional<double>();
     }
-    return end;
+    return std::optional<double>(end);
 }
 
 const std::optional<BoundPerformance>& Performer::timeline() const { return state_->parts.timeline; }

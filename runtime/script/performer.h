@@ -52,9 +52,9 @@ public:
 
     /// Words to be seen now: the script's, else the timeline's; empty when there are none.
     std::string_view caption() const;
-    /// When timeline, script and events have come to their ends; nothing for a script that never does so within `most`.
-    /// Runs the performer to find out, and leaves it at the beginning.
-    std::optional<double> find_end(double most_seconds);
+    /// When timeline, script and events have come to their ends; nothing for a script that does not do so within
+    /// `most_seconds`. Runs the performer to find out, and leaves it at the beginning. Error: the script's.
+    Result<std::optional<double>> find_end(double most_seconds);
 
     const std::optional<BoundPerformance>& timeline() const;
     bool still() const;  ///< no part of it moves: any moment is like the first

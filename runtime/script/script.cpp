@@ -226,6 +226,8 @@ void Script::apply(std::span<float> controls) {
     state_->moment.motions.apply(state_->moment.now_seconds, controls);
 }
 
+void Script::mute() { state_->sandbox->print = nullptr; }
+
 Status Script::restart() {
     auto fresh = std::make_unique<State>();
     fresh->text = std::move(state_->text);

@@ -69,6 +69,9 @@ public:
     /// play() began since the last step.
     void apply(std::span<float> controls);
 
+    /// Keeps print() quiet until restart(): for a run that only finds out how long a script takes.
+    void mute();
+
     /// Begins again, as if just created. Error: as create().
     Status restart();
 

@@ -54,10 +54,4 @@ void report_matches(const BoundPerformance& performance, const Face& face) {
     list("targets of " + face.path + " without a channel", performance.undriven_targets());
 }
 
-void Playback::seek(float time_seconds) {
-    std::ranges::copy(base_, character_->controls().begin());
-    std::ranges::copy(rest_.nodes, character_->pose().nodes.begin());
-    performance_.sample(time_seconds, character_->controls(), character_->pose());
-}
-
 }  // namespace blush::tool

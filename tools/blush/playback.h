@@ -1,5 +1,5 @@
 #pragma once
-/// A performance on a character: found by name, bound, sampled.
+/// Performances, found by name.
 
 #include <filesystem>
 #include <memory>
@@ -19,25 +19,5 @@ Result<Performance> find_performance(const Face& face, const std::string& name);
 /// Names once every channel without a control and every target without a channel, and the performance's own notes, on
 /// standard error.
 void report_matches(const BoundPerformance& performance, const Face& face);
-
-/// Sets the character to the performance at a time. Controls that the performance does not drive keep `base`, nodes
-/// that it does not move rest.
-class Playback {
-public:
-    Playback(Character& character, BoundPerformance performance)
-        : character_(&character),
-          performance_(std::move(performance)),
-          base_(character.controls().begin(), character.controls().end()),
-          rest_(character.rig().rest_pose()) {}
-
-    const BoundPerformance& performance() const { return performance_; }
-    void seek(float time_seconds);
-
-private:
-    Character* character_;
-    BoundPerformance performance_;
-    std::vector<float> base_;
-    Pose rest_;
-};
 
 }  // namespace blush::tool
