@@ -7,6 +7,7 @@
 #include "runtime/face_file.h"
 #include "runtime/frame.h"
 #include "runtime/gl/state_guard.h"
+#include "runtime/rig_description_file.h"
 
 namespace blush {
 namespace {
@@ -48,14 +49,22 @@ Character::~Character() = default;
 Result<Character> Character::load(const Device& device, const std::filesystem::path& path) {
     Result<Face> face = load_face(path);
     if (!face) return face.error();
-    return create(device, *std::move(face));
+    const Result<RigDescription> description = find_rig_description(*face);
+    if (!description) return description.error();
+    return create(device, *std::move(face), *description);
 }
 
-Result<Character> Character::create(const Device& device, Face face) {
+Result<Character> Character::create(const Device& device, Face face, const std::optional<RigDescription>& description) {
     if (Status valid = validate(face); !valid) return valid.error();
+    if (description) {
+        if (Status good = check(*description, face); !good) {
+            return Error{face.path + ": its rig description: " + good.error().message};
+        }
+    }
+    Rig rig = description ? Rig(face, *description) : Rig(face);
     device.make_current();
     const gl::StateGuard guard;
-    auto state = std::make_unique<CharacterState>(device, std::move(face));
+    auto state = std::make_unique<CharacterState>(device, std::move(face), std::move(rig));
     Result<StreamOut> stream_out = StreamOut::create(device, state->face);
     if (!stream_out) return stream_out.error();
     state->stream_out.emplace(*std::move(stream_out));

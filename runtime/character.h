@@ -23,10 +23,13 @@ struct CharacterState;
 
 class Character {
 public:
-    /// Loads a face file (runtime/face_file.h) onto the device.
+    /// Loads a face file (runtime/face_file.h) onto the device, with the rig description beside it where there is one
+    /// (runtime/rig_description_file.h).
     static Result<Character> load(const Device& device, const std::filesystem::path& path);
-    /// The same from a face in memory, which must satisfy validate().
-    static Result<Character> create(const Device& device, Face face);
+    /// The same from a face in memory, which must satisfy validate(), and a description, which must satisfy check();
+    /// without one, that of its target names.
+    static Result<Character> create(const Device& device, Face face,
+                                    const std::optional<RigDescription>& description = std::nullopt);
 
     Character(Character&&) noexcept;
     Character& operator=(Character&&) noexcept;

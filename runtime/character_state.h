@@ -46,7 +46,8 @@ struct FrameResources {
 struct Effect;
 
 struct CharacterState {
-    CharacterState(Device on, Face loaded) : device(std::move(on)), face(std::move(loaded)), rig(face) {}
+    CharacterState(Device on, Face loaded, Rig its)
+        : device(std::move(on)), face(std::move(loaded)), rig(std::move(its)) {}
     ~CharacterState() { device.make_current(); }  // the GL objects below must go in their own context
 
     Device device;

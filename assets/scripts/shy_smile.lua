@@ -8,17 +8,17 @@ wait(feel("joy", 0.35, {over = 0.9}))
 -- The smile is held back, and the gaze goes down and aside before the head does.
 blend({shySmile = 0.9}, {over = 1.1})
 wait(0.35)
-look(-14, 11)
+look(12, 8)
 wait(0.65)
 feel("blush", 0.9, {over = 2.5})
 wait(2.6)
 
 -- One look up to see whether it was seen; it was.
-look(2, 1)
+look(1, 1)
 feel("joy", 0.3, {over = 0.5})
 wait(1.0)
 blink()
-look(-9, 8)
+look(9, 6)
 feel({joy = 0.15, shySmile = 0.6}, {over = 0.8})
 wait(1.6)
 

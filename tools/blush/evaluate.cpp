@@ -34,7 +34,9 @@ std::optional<NotFinite> find_not_finite(const Character::Surface& surface, cons
 }
 
 Result<Character::Surface> evaluate_on_cpu(const Face& face, const Options& options) {
-    const Rig rig(face);
+    const Result<RigDescription> description = describe_rig(face, options.pose);
+    if (!description) return description.error();
+    const Rig rig(face, *description);
     std::vector<float> controls(rig.control_names().size());
     if (Status set = options.pose.apply(face, rig, controls); !set) return set.error();
     EffectSettings settings;

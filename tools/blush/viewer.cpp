@@ -192,8 +192,8 @@ private:
 
 namespace {
 
-Result<PlaybackClock> clock_of(const Face& face, const ViewerOptions& options) {
-    const Rig rig(face);
+Result<PlaybackClock> clock_of(const Face& face, const RigDescription& description, const ViewerOptions& options) {
+    const Rig rig(face, description);
     std::optional<BoundPerformance> timeline;
     if (!options.performance.empty() || options.perform.script.empty()) {
         Result<Performance> performance = find_performance(face, options.performance);
@@ -222,14 +222,16 @@ int run_viewer(const ViewerOptions& options) {
     // All input first: a bad file should not flash a window.
     Result<Face> face = load_face(face_path(options.face));
     if (!face) return fail(face.error());
-    const Result<PlaybackClock> clock = clock_of(*face, options);
+    const Result<RigDescription> description = describe_rig(*face, options.pose);
+    if (!description) return fail(description.error());
+    const Result<PlaybackClock> clock = clock_of(*face, *description, options);
     if (!clock) return fail(clock.error());
 
     Result<std::unique_ptr<Window>> window = Window::open("blush");
     if (!window) return fail(window.error());
     Result<Device> device = Device::adopt_current();
     if (!device) return fail(device.error());
-    Result<Character> character = Character::create(*device, *std::move(face));
+    Result<Character> character = Character::create(*device, *std::move(face), *description);
     if (!character) return fail(character.error());
     if (Status set = options.pose.apply(character->face(), character->rig(), character->controls()); !set) {
         return fail(set.error());
