@@ -117,17 +117,11 @@ Result<PerformerParts> PerformOptions::parts(const Face& face, const Rig& rig, s
 
 Result<fs::path> find_script(const std::string& name) {
     std::error_code failed;
-    const fs::path folder = asset_folder() / "scripts";
-    const fs::path shipped = folder / (name + ".lua");
-    if (name.find('/') == std::string::npos && fs::exists(shipped, failed)) return shipped;
+    const fs::path ours = asset_folder() / "scripts" / (name + ".lua");
+    if (name.find('/') == std::string::npos && fs::exists(ours, failed)) return ours;
     if (fs::exists(name, failed)) return fs::path(name);
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder, failed)) {
-        if (entry.path().extension() == ".lua") names.push_back(entry.path().stem().string());
-    }
-    std::ranges::sort(names);
     std::string known;
-    for (const std::string& shipped_name : names) known += ", " + shipped_name;
+    for (const std::string& shipped_name : shipped("scripts", ".lua")) known += ", " + shipped_name;
     return Error{"--script " + name +
                  ": neither a file nor shipped (there are: " + (known.empty() ? "none" : known.substr(2)) + ")"};
 }

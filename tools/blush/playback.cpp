@@ -13,10 +13,7 @@ namespace fs = std::filesystem;
 
 std::string shipped_names() {
     std::string names;
-    std::error_code failed;
-    for (const auto& entry : fs::directory_iterator(asset_folder() / "performances", failed)) {
-        if (entry.path().extension() == ".json") names += ", " + entry.path().stem().string();
-    }
+    for (const std::string& name : shipped("performances", ".json")) names += ", " + name;
     return names;
 }
 
@@ -28,6 +25,16 @@ void list(const std::string& what, std::span<const std::string> names) {
 }
 
 }  // namespace
+
+std::vector<std::string> shipped(const std::string& folder, const std::string& ending) {
+    std::vector<std::string> names;
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(asset_folder() / folder, failed)) {
+        if (entry.path().extension() == ending) names.push_back(entry.path().stem().string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
 
 Result<Performance> find_performance(const Face& face, const std::string& name) {
     if (name.empty() && !face.animations.empty()) return performance_from_animations(face, std::nullopt);

@@ -11,6 +11,9 @@
 
 namespace blush::tool {
 
+/// Names, without their ending, of what the program ships in a folder of its assets; sorted.
+std::vector<std::string> shipped(const std::string& folder, const std::string& ending);
+
 /// Finds a performance for a face: nothing named: the file's own animations, or for a face without any the shipped
 /// "first_light"; else an animation of the file by its name, a shipped performance by its name, or a file.
 /// Error: nothing of that name, with what there is.
