@@ -3,7 +3,7 @@
 -- CC0-1.0
 
 local function ha(strength)
-    feel("jawOpen", 0.16 + 0.3 * strength, {over = 0.07, ease = "ease-out"})
+    feel("jawOpen", 0.12 + 0.25 * strength, {over = 0.07, ease = "ease-out"})
     feel("headPitch", -0.03 - 0.1 * strength, {over = 0.09})
     wait(0.1)
     feel("jawOpen", 0.08 + 0.08 * strength, {over = 0.09})
@@ -21,12 +21,12 @@ wait(0.9)
 feel("exercise", 0.5, {over = 6})
 for burst = 1, 3 do
     local strength = 1.1 - 0.25 * burst
-    blend({laughter = 0.75 * strength, exercise = 0.5}, {over = 0.18})
+    blend({laughter = 0.55 + 0.45 * strength, AU7 = 0.6, AU43 = 0.2 * strength, exercise = 0.5}, {over = 0.18})
     for _ = 1, 9 - 2 * burst do
         ha(strength * (0.8 + 0.2 * random()))
     end
     -- Drawing breath.
-    feel("laughter", 0.35, {over = 0.3})
+    feel({laughter = 0.5, AU43 = 0}, {over = 0.3})
     feel("jawOpen", 0.12, {over = 0.3})
     wait(0.45)
 end

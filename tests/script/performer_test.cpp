@@ -225,7 +225,7 @@ TEST_F(PerformerTest, LintFindsWhatIsOdd) {
                 ElementsAre("2: there is no control 'angr' (did you mean 'anger'?)"));
     EXPECT_THAT(findings_of("on('poke', function()\n feel('joy', 1) error('late') end)"), ElementsAre("2: late"));
     EXPECT_THAT(findings_of("while true do end"), ElementsAre(HasSubstr("1: the script did not come to a wait()")));
-    EXPECT_THAT(findings_of("feel('joy', 1) for i = 1, 60000 do end"),
+    EXPECT_THAT(findings_of("feel('joy', 1) for i = 1, 150000 do end"),
                 ElementsAre(HasSubstr("of the 200000 instructions that it may")));
     EXPECT_THAT(findings_of("wait(1)"), ElementsAre("0: nothing moves in the first minute"));
     EXPECT_FALSE(lint_script("/no/such/script.lua", rig));
