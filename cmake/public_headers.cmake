@@ -3,3 +3,6 @@ file(GLOB BLUSH_PUBLIC_HEADERS CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} 
 foreach(header appearance_file camera character device effect_settings face_file frame_report import_head offscreen output_file performance_file picture_file rig_description_file view)
   list(APPEND BLUSH_PUBLIC_HEADERS runtime/${header}.h)
 endforeach()
+foreach(header performer sandbox script)
+  list(APPEND BLUSH_PUBLIC_HEADERS runtime/script/${header}.h)
+endforeach()

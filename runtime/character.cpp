@@ -100,6 +100,7 @@ void Character::set(ControlId control, float value) {
 
 std::span<float> Character::controls() { return state_->controls; }
 Pose& Character::pose() { return state_->pose; }
+void Character::follow_blood(const BloodFlow* blood) { state_->blood = blood; }
 
 Status Character::set(std::string_view setting, std::string_view choice) {
     return state_->settings.set(setting, choice);

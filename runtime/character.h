@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "rig/blood_flow.h"
 #include "rig/face.h"
 #include "rig/result.h"
 #include "rig/rig.h"
@@ -45,6 +46,10 @@ public:
     std::span<float> controls();
     /// The pose that node animations write to; its weights and angles come from the controls at the next draw.
     Pose& pose();
+
+    /// Lets slow blood (rig/blood_flow.h) say where the blood is instead of the pose; null: the pose again. It must
+    /// outlive its use here.
+    void follow_blood(const BloodFlow* blood);
 
     /// Status: no such effect, setting or choice.
     Status set(std::string_view setting, std::string_view choice);

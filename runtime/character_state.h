@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "rig/blood_flow.h"
 #include "rig/head_and_eyes.h"
 #include "rig/rig.h"
 #include "runtime/antialias/sampling.h"
@@ -70,6 +71,7 @@ struct CharacterState {
     Bounds bounds;
     std::vector<float> controls;
     Pose pose;
+    const BloodFlow* blood = nullptr;  ///< where the blood is, when it does not follow the pose at once
     EffectSettings settings;
 
     std::optional<StreamOut> stream_out;  // made right after construction: it refers to `face`

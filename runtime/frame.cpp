@@ -99,6 +99,7 @@ void run(CharacterState& state, const View& view) {
 void begin_frame(CharacterState& state, const View& view) {
     state.view = &view;
     state.rig.evaluate(state.controls, state.pose);
+    if (state.blood) state.blood->apply(state.pose);
     find_facts(state, view);
     world_from_nodes(state.face, state.pose, state.head_and_eyes, state.world_from_node);
     skinned_from_meshes(state.face, state.world_from_node, state.skinned_from_mesh);

@@ -19,10 +19,7 @@ struct KnownKind {
     Linter linter;
 };
 constexpr KnownKind known_kinds[] = {
-    {".rig.json", lint_rig},
-    {".glb", lint_face},
-    {".gltf", lint_face},
-    {".obj", lint_face},
+    {".rig.json", lint_rig}, {".glb", lint_face}, {".gltf", lint_face}, {".obj", lint_face}, {".lua", lint_script_file},
 };
 
 Linter linter_of(const fs::path& file) {
@@ -67,10 +64,13 @@ void add_lint(CLI::App& app, int& exit_status) {
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("lint", "Name everything odd about a file, and change nothing");
-    command->add_option("FILE", options->file, "A face (.glb, .gltf, .obj, \"default\") or a rig (.rig.json)")
+    command
+        ->add_option("FILE", options->file,
+                     "A face (.glb, .gltf, .obj, \"default\"), a rig (.rig.json) or a script (.lua)")
         ->required();
     command->add_option("--face", options->face,
-                        "The face that a rig is for; the one beside it where this is left out");
+                        "The face that a rig or a script is for; without it, the one beside a rig, and one with all of "
+                        "ARKit's shapes for a script");
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options, &exit_status] { exit_status = lint(options->file, options->face, options->json); });
 }

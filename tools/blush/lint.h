@@ -22,5 +22,7 @@ using Linter = Result<Findings> (*)(const std::filesystem::path& file, const std
 
 Result<Findings> lint_face(const std::filesystem::path& file, const std::string& face);
 Result<Findings> lint_rig(const std::filesystem::path& file, const std::string& face);
+/// Without a face, of one that has all of ARKit's shapes.
+Result<Findings> lint_script_file(const std::filesystem::path& file, const std::string& face);
 
 }  // namespace blush::tool
