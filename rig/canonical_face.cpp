@@ -45,12 +45,13 @@ std::optional<std::uint32_t> primitive_of(const Face& face, std::uint32_t vertex
     return std::nullopt;
 }
 
-std::vector<bool> primitives_moved(const Face& face, const Target* target) {
-    std::vector<bool> moved(face.primitives.size(), false);
+/// How many vertices of each primitive a target moves.
+std::vector<std::size_t> vertices_moved(const Face& face, const Target* target) {
+    std::vector<std::size_t> moved(face.primitives.size(), 0);
     if (!target) return moved;
     for (std::size_t i = 0; i < target->vertices.size(); ++i) {
         if (target->position_deltas[i] == glm::vec3(0)) continue;
-        if (const auto p = primitive_of(face, target->vertices[i])) moved[*p] = true;
+        if (const auto p = primitive_of(face, target->vertices[i])) ++moved[*p];
     }
     return moved;
 }
@@ -135,14 +136,18 @@ void draw_triangle(CanonicalMap& map, const std::array<glm::vec2, 3>& corners, c
 }  // namespace
 
 std::vector<std::uint32_t> skin_primitives(const Face& face) {
-    const std::vector<bool> lids = primitives_moved(face, find_target(face, left_eye_names));
+    const std::vector<std::size_t> lids = vertices_moved(face, find_target(face, left_eye_names));
     const Target* smile = find_target(face, left_mouth_names);
-    const std::vector<bool> mouth = primitives_moved(face, smile ? smile : find_target(face, middle_mouth_names));
-    std::vector<std::uint32_t> primitives;
+    const std::vector<std::size_t> mouth = vertices_moved(face, smile ? smile : find_target(face, middle_mouth_names));
+    std::vector<std::uint32_t> both;
     for (std::uint32_t p = 0; p < face.primitives.size(); ++p) {
-        if (lids[p] && mouth[p]) primitives.push_back(p);
+        if (lids[p] > 0 && mouth[p] > 0) both.push_back(p);
     }
-    return primitives;
+    if (both.empty()) return both;
+    // Lashes can move with both too; the skin is what the mouth moves most of, with all that shares its material.
+    const std::uint32_t skin = *std::ranges::max_element(both, {}, [&](std::uint32_t p) { return mouth[p]; });
+    std::erase_if(both, [&](std::uint32_t p) { return face.primitives[p].material != face.primitives[skin].material; });
+    return both;
 }
 
 std::optional<FaceLandmarks> landmarks_from_targets(const Face& face, std::span<const std::uint32_t> primitives) {

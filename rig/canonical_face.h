@@ -31,8 +31,8 @@ struct FaceLandmarks {
     float eye_height_mm = 0, mouth_height_mm = canonical_mouth_mm;
 };
 
-/// The primitives that carry facial skin: those that the eyelids' targets and the mouth's both move. Indices into
-/// Face::primitives; empty where the targets do not say.
+/// The primitives that carry facial skin: those of one material that the eyelids' targets and the mouth's both move.
+/// Indices into Face::primitives; empty where the targets do not say.
 std::vector<std::uint32_t> skin_primitives(const Face& face);
 
 /// Landmarks from what the face's targets move: the lids close over the eyes, smiles pull at the mouth. Nothing where
