@@ -50,8 +50,10 @@ TEST_F(Bake, BadInputIsNamed) {
     expect_refused("bake appearance --albedo none.png -o maps", "none.png: there is no such file");
     expect_refused("bake appearance --albedo grey.png -o maps",
                    "grey.png: the image has 1 channel; skin is read from a colour texture");
-    expect_refused("bake appearance face.glb -o maps",
-                   "face.glb: its skin has no colour texture; name one with --albedo");
+    expect_refused(
+        "bake appearance face.glb -o maps",
+        "face.glb: eyes and mouth cannot be found, for no targets like eyeBlinkLeft and mouthSmileLeft move its "
+        "skin; name their places in the texture with --landmarks");
     expect_refused("bake appearance --albedo skin.png --landmarks line.json -o maps",
                    "line.json: eyes and mouth lie on one line");
     expect_refused("bake appearance --albedo skin.png --landmarks bad.json -o maps", "bad.json: \"mouth\" is missing");
