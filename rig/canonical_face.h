@@ -61,8 +61,8 @@ struct CanonicalMap {
     ScalarMap coverage;           ///< 1 where a triangle covers the texel's centre, else 0
 };
 
-/// From the geometry: the triangles of these primitives, drawn in their own texture layout (uv0, which repeats). Where
-/// triangles overlap, the last one counts. Nothing where no texel is covered.
+/// From the geometry: the triangles of these primitives in their own texture layout (uv0; rig/uv_raster.h says how
+/// repeats and overlaps count). Nothing where no texel is covered.
 std::optional<CanonicalMap> canonical_map(const Face& face, std::span<const std::uint32_t> primitives,
                                           const CanonicalFrame& frame, std::uint32_t width, std::uint32_t height);
 

@@ -56,6 +56,7 @@ int report_not_finite(const FrameReport& report);
 
 // One function a command: adds it to `app` and sets `exit_status` when it has run.
 void add_info(CLI::App& app, int& exit_status);
+void add_import(CLI::App& app, int& exit_status);
 void add_evaluate(CLI::App& app, int& exit_status);
 void add_render(CLI::App& app, int& exit_status);
 void add_play(CLI::App& app, int& exit_status);
