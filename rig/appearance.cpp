@@ -12,10 +12,10 @@
 namespace blush {
 namespace {
 
-/// What a face's typical skin may hold: melanosomes of 0.5 % to 43 % (Jacques 1998 gives 1.3 % to 43 %). Blood varies
+/// What a face's typical skin may hold: melanosomes of 1.3 % to 43 % of the epidermis (Jacques 1998). Blood varies
 /// far less between faces than melanin (Xiao et al. 2017: the redness of faces is the same in four ethnic groups); 1.2
 /// % to 4 % of the dermis gives the table the a* of 10 to 16 that faces have.
-constexpr float least_typical_melanin = 0.005F, most_typical_melanin = 0.43F;
+constexpr float least_typical_melanin = 0.013F, most_typical_melanin = 0.43F;
 constexpr float least_typical_hemoglobin = 0.012F, most_typical_hemoglobin = 0.04F;
 
 /// A texel is skin as long as its chroma lies within `sure` of what skin can have, and none beyond `never`: 0.1 of

@@ -47,7 +47,7 @@ glm::vec3 SkinInverter::density_at(glm::vec2 uv) const {
 
 SkinReading SkinInverter::read(const glm::vec3& colour) const {
     const glm::vec3 wanted = skin_density(colour / white_);
-    const glm::vec3 weights(lightness_weight_, 1, 1);
+    const glm::vec3 weights(lightness_weight_, 1, yellowness_weight);
     const auto misfit = [&](glm::vec2 uv) { return weights * (density_at(uv) - wanted); };
     const auto cost_of = [](const glm::vec3& error) { return glm::dot(error, error); };
 

@@ -59,7 +59,7 @@ TEST(SkinInversion, LightChangesShadingAlone) {
 TEST(SkinInversion, NearestPointOfEveryColourIsFound) {
     // Against the least over all nodes of a fine grid; the search may only be better.
     const SkinInverter inverter(table(), glm::vec3(1), 0.35F);
-    const glm::vec3 weights(0.35F, 1, 1);
+    const glm::vec3 weights(0.35F, 1, yellowness_weight);
     for (const float r : {0.02F, 0.2F, 0.5F, 0.9F}) {
         for (const float g : {0.02F, 0.2F, 0.5F, 0.9F}) {
             for (const float b : {0.02F, 0.2F, 0.5F, 0.9F}) {
