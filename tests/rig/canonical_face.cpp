@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rig/hemoglobin_pattern.h"
+#include "rig/rig.h"
 #include "tests/test_faces.h"
 
 namespace blush {
@@ -144,6 +145,12 @@ HemoglobinPattern cheeks() {
     cheek.change = {0.5F, 0.4F};
     pattern.regions.push_back(cheek);
     return pattern;
+}
+
+TEST(HemoglobinPattern, ThereIsOneForEveryMapOfTheRig) {
+    const Rig rig(small_face());
+    const auto maps = rig.hemoglobin_maps();
+    EXPECT_EQ(hemoglobin_pattern_names, std::vector<std::string>(maps.begin(), maps.end()));
 }
 
 TEST(HemoglobinPattern, IsFullAtItsCentreOnBothSides) {
