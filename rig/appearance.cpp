@@ -13,10 +13,10 @@ namespace blush {
 namespace {
 
 /// What a face's typical skin may hold: melanosomes of 1.3 % to 43 % of the epidermis (Jacques 1998). Blood varies
-/// far less between faces than melanin (Xiao et al. 2017: the redness of faces is the same in four ethnic groups); 1.2
-/// % to 4 % of the dermis gives the table the a* of 10 to 16 that faces have.
+/// far less between faces than melanin (Xiao et al. 2017: the redness of faces is the same in four ethnic groups): from
+/// 1.8 % to 4 % of the dermis the table has the a* of 12 to 16 that faces have.
 constexpr float least_typical_melanin = 0.013F, most_typical_melanin = 0.43F;
-constexpr float least_typical_hemoglobin = 0.012F, most_typical_hemoglobin = 0.04F;
+constexpr float least_typical_hemoglobin = 0.018F, most_typical_hemoglobin = 0.04F;
 
 /// A texel is skin as long as its chroma lies within `sure` of what skin can have, and none beyond `never`: 0.1 of
 /// density is 10 % in the ratio of two channels. And as long as it is not much darker or lighter than the typical skin:
@@ -63,7 +63,7 @@ glm::vec3 colour_of_density(const glm::vec3& d) {
 
 /// The typical colour of what can be skin: the median density, then twice the median of what lies near it. Nothing
 /// where too little can be.
-std::optional<glm::vec3> typical_density(const ColourMap& albedo, const ScalarMap* coverage) {
+std::optional<glm::vec3> typical_density(const ColourMap& albedo, const ScalarMap* coverage, const ScalarMap* region) {
     // Skin of every kind is redder than yellow-green and yellower than blue under any white light. Texels nearer to
     // grey, to black or to a pure colour are left out.
     constexpr float least_redness = 0.08F, most_redness = 1.6F, least_yellowness = -0.05F, most_yellowness = 1.6F;
@@ -74,6 +74,8 @@ std::optional<glm::vec3> typical_density(const ColourMap& albedo, const ScalarMa
     std::size_t looked_at = 0;
     for (std::size_t i = 0; i < albedo.values.size(); i += stride) {
         if (coverage && !(coverage->values[i] > 0)) continue;
+        const glm::vec2 texel(i % albedo.width, i / albedo.width);
+        if (region && !(sample(*region, (texel + 0.5F) / glm::vec2(albedo.width, albedo.height)) > 0.5F)) continue;
         ++looked_at;
         const glm::vec3 d = skin_density(cleaned(albedo.values[i]));
         if (d.y > least_redness && d.y < most_redness && d.z > least_yellowness && d.z < most_yellowness &&
@@ -136,7 +138,7 @@ float stored_fraction(std::uint8_t byte, double largest) { return table_fraction
 AppearanceMaps appearance_from_albedo(const ColourMap& albedo, const SkinColourTable& table,
                                       const AlbedoOptions& options, const ScalarMap* coverage, AlbedoReport* report) {
     const glm::vec3 nothing_known = skin_density(table.colour_linear(0.02F, 0.02F));
-    const glm::vec3 typical = typical_density(albedo, coverage).value_or(nothing_known);
+    const glm::vec3 typical = typical_density(albedo, coverage, options.typical_region).value_or(nothing_known);
     const glm::vec2 typical_uv = nearest_typical_skin(table, typical, options);
     const float typical_melanin = table_fraction(typical_uv.x, largest_melanin);
     const float typical_hemoglobin = table_fraction(typical_uv.y, largest_hemoglobin);

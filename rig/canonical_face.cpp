@@ -218,6 +218,16 @@ std::optional<CanonicalMap> canonical_map(const TextureLandmarks& landmarks, std
     return map;
 }
 
+ScalarMap face_region(const CanonicalMap& map) {
+    constexpr float sides_mm = 80, top_mm = 50, bottom_mm = -110;
+    ScalarMap region = map.coverage;
+    for (std::size_t i = 0; i < region.values.size(); ++i) {
+        const glm::vec2 place = map.canonical_mm.values[i];
+        if (std::abs(place.x) > sides_mm || place.y > top_mm || place.y < bottom_mm) region.values[i] = 0;
+    }
+    return region;
+}
+
 ScalarMap carried(const ScalarMap& values, const CanonicalMap& from, const CanonicalMap& to) {
     assert(values.same_size(from.coverage) && "carried: the map is not in the layout it comes from");
     // The mean face unrolled, from the neck to the crown, in cells of 2 mm: finer than any change of blood.

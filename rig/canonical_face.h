@@ -73,6 +73,10 @@ struct TextureLandmarks {
 };
 std::optional<CanonicalMap> canonical_map(const TextureLandmarks& landmarks, std::uint32_t width, std::uint32_t height);
 
+/// 1 where a texel shows the face proper, from the brows to the chin and to before the ears, else 0: the skin that a
+/// face's colour is judged by, without scalp, body and gums.
+ScalarMap face_region(const CanonicalMap& map);
+
 /// A map of one face in the layout of another: every texel of `to` takes the value that `from` has at the same place of
 /// the mean face, by a grid of 2 mm. `values` is of `from`'s size; the result of `to`'s.
 ScalarMap carried(const ScalarMap& values, const CanonicalMap& from, const CanonicalMap& to);

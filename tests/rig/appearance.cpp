@@ -194,6 +194,22 @@ TEST(Appearance, CoverageKeepsSkinToTheFace) {
     EXPECT_GT(maps.skin.at(3, 4), 0.9F);
 }
 
+TEST(Appearance, TypicalSkinIsLookedForInItsRegion) {
+    // A pale half and a dark one: either is typical, by where one looks.
+    ColourMap albedo(16, 16, table().colour_linear(0.015F, 0.015F));
+    for (std::size_t i = 0; i < 128; ++i) albedo.values[i] = table().colour_linear(0.15F, 0.015F);
+    ScalarMap top(2, 2), bottom(2, 2);
+    top.at(0, 0) = top.at(1, 0) = bottom.at(0, 1) = bottom.at(1, 1) = 1;
+    AlbedoOptions options;
+    AlbedoReport report;
+    options.typical_region = &top;
+    appearance_from_albedo(albedo, table(), options, nullptr, &report);
+    EXPECT_NEAR(report.typical_melanin, 0.15F, 0.02F);
+    options.typical_region = &bottom;
+    appearance_from_albedo(albedo, table(), options, nullptr, &report);
+    EXPECT_NEAR(report.typical_melanin, 0.015F, 0.003F);
+}
+
 TEST(Appearance, StoredBytesAreTheTablesAxis) {
     EXPECT_EQ(stored_byte(0, largest_melanin), 0);
     EXPECT_EQ(stored_byte(0.5F, largest_melanin), 255);
