@@ -84,7 +84,7 @@ constexpr CompoundRow compounds[] = {
      "AU6 0.75, AU12 0.75", "joy 0.75"},
     {"socialSmile", "a posed smile: the lip corners alone, no AU6 (Ekman, Davidson, Friesen 1990)", "AU12 0.75",
      "joy 0.35"},
-    {"sadSmile", "the sad smile of jimenez-2012, figure 7.1", "sadness 0.65, AU12 0.6, AU6 0.2", ""},
+    {"sadSmile", "the sad smile of jimenez-2012, figure 7.1", "sadness 0.8, AU12 0.7, AU6 0.2", ""},
     {"fearIntoAnger", "fear as it turns into anger", "fear 0.5, anger 0.6", ""},
     {"shySmile", "a smile held back, the gaze and the head going down (Keltner 1995: 12+24+64+54), with a blush",
      "AU12 0.55, AU6 0.3, AU24 0.35, AU64 0.45, AU54 0.3, AU51 0.15, blush 0.6", ""},
