@@ -216,7 +216,7 @@ TEST_F(AntialiasingFrames, AStillFaceConvergesToOnePicture) {
 TEST_F(AntialiasingFrames, ForcingChangesNoByteInAnyModeStillOrMoving) {
     const Face face = make_face({.side = 14, .targets = 2});
     for (const Output output : {Output::display_srgb, Output::linear_hdr}) {
-        const Offscreen offscreen = make_offscreen(40, 40, output);
+        const Offscreen offscreen = make_offscreen(24, 24, output);
         for (const std::string_view mode : antialiasing_modes) {
             SCOPED_TRACE(mode);
             Character plain = character_in(std::string(mode), face), forced = character_in(std::string(mode), face);
