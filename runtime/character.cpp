@@ -33,6 +33,7 @@ Status build_programs(CharacterState& state) {
     state.tone_program = *std::move(tone);
     state.scene_framebuffer = gl::make_framebuffer();
     state.resolved_framebuffer = gl::make_framebuffer();
+    state.output_framebuffer = gl::make_framebuffer();
     state.no_attributes = gl::make_vertex_array();
     return Done{};
 }

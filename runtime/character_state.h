@@ -1,8 +1,11 @@
 #pragma once
 /// What a Character holds: the inside that effects, passes and the frame share.
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <typeindex>
+#include <unordered_map>
 #include <vector>
 
 #include "rig/head_and_eyes.h"
@@ -34,8 +37,12 @@ struct SceneFacts {
 struct FrameResources {
     ResourceId positions{}, normals{}, tangents{};                          ///< the surface as far as it has come
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
-    ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{}, target{};
+    ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
+    ResourceId display{};  ///< the display image as far as it has come
+    ResourceId target{};   ///< the view's framebuffer
 };
+
+struct Effect;
 
 struct CharacterState {
     CharacterState(Device on, Face loaded) : device(std::move(on)), face(std::move(loaded)), rig(face) {}
@@ -68,19 +75,33 @@ struct CharacterState {
     const SurfaceBuffers* skin_source = nullptr;
     FrameGraph graph;
     FrameResources resources;
+    std::uint32_t display_effects_left = 0;  // of those that are on, how many have yet to declare themselves
     std::vector<glm::mat4> world_from_node, skinned_from_mesh;
     gl::Program tone_program;
-    gl::Framebuffer scene_framebuffer, resolved_framebuffer;
+    gl::Framebuffer scene_framebuffer, resolved_framebuffer, output_framebuffer;
     gl::VertexArray no_attributes;
     gl::TexturePool textures;
     gl::Timers timers;
     FiniteCheck finite_check;
     FrameReport report;
 
+    /// What one effect keeps for this character, made when first asked for: `T` is the effect's own type.
+    template <class T>
+    T& own() {
+        std::shared_ptr<void>& kept = owned_[std::type_index(typeid(T))];
+        if (!kept) kept = std::make_shared<T>();
+        return *static_cast<T*>(kept.get());
+    }
+    /// Whether an effect takes part in this frame. Known once needs are found.
+    bool on(const Effect& effect) const;
+
     /// The surface before joints: deformed, or at rest where no target is active.
     const SurfaceBuffers& morphed() const {
         return facts.active_targets == 0 && !facts.forced ? stream_out->rest() : stream_out->deformed();
     }
+
+private:
+    std::unordered_map<std::type_index, std::shared_ptr<void>> owned_;
 };
 
 }  // namespace blush

@@ -21,11 +21,21 @@ namespace blush {
 
 struct CharacterState;
 
+/// One of a few named choices, or (without choices) a number in a range.
 struct Setting {
     std::string_view name;
     std::string_view meaning;
-    std::span<const std::string_view> choices;
+    std::span<const std::string_view> choices = {};
     std::uint8_t default_choice = 0;
+    double lowest = 0, highest = 0, default_number = 0;  ///< of a number; in the unit that `meaning` names
+};
+
+/// Where in a frame an effect's passes stand (runtime/frame.cpp).
+enum class Stage : std::uint8_t {
+    surface,  ///< before anything is drawn: what moves the surface
+    light,    ///< on the finished surface: what shading reads (shadow maps, velocities)
+    scene,    ///< on the shaded image, in linear radiance: FrameResources::scene_color and its companions
+    display,  ///< on the display image, after the filmic curve: see next_display() in runtime/frame.h
 };
 
 /// Answer of a predicate.
@@ -66,12 +76,16 @@ struct HardCase {
     void (*make)(Face& face);
     /// Weight of every target of that face.
     float weight = 1;
+    /// Changes what the frame is drawn for; may be null.
+    void (*look)(View& view) = nullptr;
 };
 
 struct Effect {
     std::string_view name;
     std::string_view what;
     std::span<const Setting> settings;
+    Stage stage = Stage::surface;
+    /// Reads facts and settings; where it depends on another effect's need, that one stands earlier in the registry.
     Need (*need)(const CharacterState&);
     void (*declare)(CharacterState&);
     /// `millimetres_a_unit`: scale of the face, for errors in millimetres.

@@ -1,5 +1,6 @@
 #pragma once
-/// The settings of all effects, by name ("deformation.method"), each one of a few named choices.
+/// The settings of all effects, by name ("deformation.method"), each one of a few named choices or a
+/// number in a range.
 
 #include <cstdint>
 #include <string_view>
@@ -13,15 +14,21 @@ class EffectSettings {
 public:
     EffectSettings();  ///< every setting at its default
 
-    /// Error: no such setting or no such choice; the message lists what there is.
-    Status set(std::string_view setting, std::string_view choice);
+    /// value: the name of a choice, or a number. Error: no such setting, no such choice (the message lists what there
+    /// is), not a finite number or one outside the setting's range.
+    Status set(std::string_view setting, std::string_view value);
     /// Index of the choice made. The setting must exist.
     std::uint8_t choice(std::string_view effect, std::string_view setting) const;
+
+    /// Value of a setting that is a number. The setting must exist.
+    double number(std::string_view effect, std::string_view setting) const;
 
     bool operator==(const EffectSettings&) const = default;
 
 private:
-    std::vector<std::uint8_t> choices_;  // of every setting of every effect, in the registry's order
+    double value(std::string_view effect, std::string_view setting) const;
+
+    std::vector<double> values_;  // number, or index of the choice, of every setting in the registry's order
 };
 
 }  // namespace blush

@@ -51,15 +51,17 @@ std::optional<NotFinite> FiniteCheck::scan_buffer(const FrameResource& resource)
 
 std::optional<NotFinite> FiniteCheck::scan_texture(const FrameResource& resource) {
     const TextureShape& shape = resource.shape;
-    const bool depth = shape.format == PixelFormat::depth32f;
+    const bool depth = gl::has_depth(shape.format);
     const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
     if (!read_framebuffer_) {
         read_framebuffer_ = gl::make_framebuffer();
         resolve_framebuffer_ = gl::make_framebuffer();
     }
-    const GLenum attachment = depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
+    const bool stencil = shape.format == PixelFormat::depth32f_stencil8;
+    const GLenum depth_attachment = stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+    const GLenum attachment = depth ? depth_attachment : GL_COLOR_ATTACHMENT0;
     glNamedFramebufferTexture(read_framebuffer_.name(), GL_COLOR_ATTACHMENT0, 0, 0);
-    glNamedFramebufferTexture(read_framebuffer_.name(), GL_DEPTH_ATTACHMENT, 0, 0);
+    glNamedFramebufferTexture(read_framebuffer_.name(), GL_DEPTH_STENCIL_ATTACHMENT, 0, 0);
     glNamedFramebufferTexture(read_framebuffer_.name(), attachment, resource.handle, 0);
     GLuint from = read_framebuffer_.name();
     if (shape.samples > 1) {
@@ -84,7 +86,7 @@ std::optional<NotFinite> FiniteCheck::scan_texture(const FrameResource& resource
     if (!depth) glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, width, height, depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, values_.data());
     for (std::size_t i = 0; i < values_.size(); ++i) {
-        if (shape.format == PixelFormat::rgba16f ? !bad_half(values_[i]) : !bad(values_[i])) continue;
+        if (gl::is_half_float(shape.format) ? !bad_half(values_[i]) : !bad(values_[i])) continue;
         const std::size_t pixel = i / channels;
         // GL counts rows from the bottom; a picture's reader counts from the top.
         return NotFinite{{},

@@ -1,6 +1,7 @@
 #include "runtime/frame.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "runtime/effect.h"
 
@@ -35,7 +36,9 @@ void remember_deformation(CharacterState& state) {
     state.deformed_valid = true;
 }
 
-void import_surface(CharacterState& state) {
+/// What the surface passes start from.
+void begin_surface(CharacterState& state) {
+    state.surface = &state.morphed();
     const SurfaceBuffers& surface = *state.surface;
     const auto count = static_cast<std::uint32_t>(state.face.positions.size());
     state.resources.positions = state.graph.import_buffer("surface positions", surface.positions.name(), 3, count);
@@ -44,6 +47,10 @@ void import_surface(CharacterState& state) {
     state.resources.morphed_positions = state.resources.positions;
     state.resources.morphed_normals = state.resources.normals;
     state.resources.morphed_tangents = state.resources.tangents;
+}
+
+ResourceId display_texture(CharacterState& state) {
+    return state.graph.texture("display", {PixelFormat::rgba8, state.view->width, state.view->height, 1});
 }
 
 void run(CharacterState& state, const View& view) {
@@ -82,23 +89,54 @@ void begin_frame(CharacterState& state, const View& view) {
     state.graph.clear();
 }
 
-void declare_effects(CharacterState& state) {
-    state.surface = &state.morphed();
-    import_surface(state);
-
+void find_needs(CharacterState& state) {
     state.report.effects.clear();
+    state.display_effects_left = 0;
     for (const Effect* effect : effects()) {
         const Need need = effect->need(state);
         const bool on = need.on || (state.facts.forced && need.can_be_forced);
         const std::string_view reason = on && !need.on ? "forced on" : need.reason;
         state.report.effects.push_back({effect->name, on, reason, need.omission, need.bound, need.bound_unit});
-        if (on) effect->declare(state);
+        if (on && effect->stage == Stage::display) ++state.display_effects_left;
     }
+}
+
+bool CharacterState::on(const Effect& effect) const {
+    const auto entry = std::ranges::find(report.effects, effect.name, &EffectReport::effect);
+    return entry != report.effects.end() && entry->on;
+}
+
+void declare_stage(CharacterState& state, Stage stage) {
+    for (const Effect* effect : effects()) {
+        if (effect->stage == stage && state.on(*effect)) effect->declare(state);
+    }
+}
+
+DisplayImages next_display(CharacterState& state) {
+    assert(state.display_effects_left > 0 && "next_display() is for effects of the display stage, once each");
+    const ResourceId from = state.resources.display;
+    const bool last = --state.display_effects_left == 0;
+    state.resources.display = last ? state.resources.target : display_texture(state);
+    return {from, state.resources.display};
+}
+
+void bind_output(CharacterState& state, const FrameGraph& graph, ResourceId image) {
+    const FrameResource& resource = graph[image];
+    GLuint framebuffer = resource.handle;
+    if (resource.kind == ResourceKind::texture) {
+        framebuffer = state.output_framebuffer.name();
+        glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, resource.handle, 0);
+    }
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, static_cast<GLsizei>(resource.shape.width), static_cast<GLsizei>(resource.shape.height));
 }
 
 void draw_frame(CharacterState& state, const View& view) {
     begin_frame(state, view);
-    declare_effects(state);
+    begin_surface(state);
+    find_needs(state);
+    declare_stage(state, Stage::surface);
+    declare_stage(state, Stage::light);
 
     const auto samples = static_cast<std::uint32_t>(
         std::clamp(static_cast<int>(view.samples), 1, std::max(1, state.device.info().largest_sample_count)));
@@ -114,8 +152,11 @@ void draw_frame(CharacterState& state, const View& view) {
 
     declare_shade(state);
     if (samples > 1) declare_resolve(state);
+    declare_stage(state, Stage::scene);
     if (view.output == Output::display_srgb) {
+        state.resources.display = state.display_effects_left == 0 ? state.resources.target : display_texture(state);
         declare_tone(state);
+        declare_stage(state, Stage::display);
     } else {
         declare_copy(state);
     }
@@ -127,7 +168,9 @@ void draw_frame(CharacterState& state, const View& view) {
 void deform_only(CharacterState& state) {
     static const View no_view;
     begin_frame(state, no_view);
-    declare_effects(state);
+    begin_surface(state);
+    find_needs(state);
+    declare_stage(state, Stage::surface);
     state.graph.present(state.resources.morphed_positions);
     state.graph.present(state.resources.morphed_normals);
     state.graph.present(state.resources.morphed_tangents);

@@ -2,20 +2,35 @@
 /// The one place where a frame is declared and run.
 
 #include "runtime/character_state.h"
+#include "runtime/effect.h"
 
 namespace blush {
 
 /// Evaluates the rig and brings the facts that predicates look at up to date.
 void begin_frame(CharacterState& state, const View& view);
 
-/// Declares the passes that turn the pose into the surface that is drawn; each effect adds its own or says why not.
-void declare_effects(CharacterState& state);
+/// Asks every effect whether the scene needs it; the answers stand in the report and in CharacterState::on().
+void find_needs(CharacterState& state);
+
+/// Declares the passes of the effects of one stage that are on, in the registry's order.
+void declare_stage(CharacterState& state, Stage stage);
 
 /// Draws a frame; state.report says what was done.
 void draw_frame(CharacterState& state, const View& view);
 
 /// Runs the effects alone and leaves the deformed surface in its buffers.
 void deform_only(CharacterState& state);
+
+/// The image that the display stage has come to, and the one that the calling effect writes: for the last effect of the
+/// stage the view's own framebuffer, else a transient 8-bit texture. Call once for each effect that declares itself.
+struct DisplayImages {
+    ResourceId from{}, to{};
+};
+DisplayImages next_display(CharacterState& state);
+
+/// Binds the framebuffer that draws into `image` (a framebuffer or a single-sampled colour texture of the graph), with
+/// the viewport of its size.
+void bind_output(CharacterState& state, const FrameGraph& graph, ResourceId image);
 
 /// Passes that every frame has, in passes/.
 void declare_shade(CharacterState& state);

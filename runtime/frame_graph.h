@@ -13,7 +13,18 @@
 
 namespace blush {
 
-enum class PixelFormat : std::uint8_t { rgba16f, rgba8, depth32f };
+enum class PixelFormat : std::uint8_t {
+    r8,
+    rg8,
+    rgba8,
+    r16f,
+    rg16f,
+    rgba16f,
+    r32f,
+    rgba32f,
+    depth32f,
+    depth32f_stencil8
+};
 
 struct TextureShape {
     PixelFormat format = PixelFormat::rgba16f;

@@ -6,14 +6,36 @@ namespace blush::gl {
 
 GLenum internal_format(PixelFormat format) {
     switch (format) {
-        case PixelFormat::rgba16f:
-            return GL_RGBA16F;
+        case PixelFormat::r8:
+            return GL_R8;
+        case PixelFormat::rg8:
+            return GL_RG8;
         case PixelFormat::rgba8:
             return GL_RGBA8;
+        case PixelFormat::r16f:
+            return GL_R16F;
+        case PixelFormat::rg16f:
+            return GL_RG16F;
+        case PixelFormat::rgba16f:
+            return GL_RGBA16F;
+        case PixelFormat::r32f:
+            return GL_R32F;
+        case PixelFormat::rgba32f:
+            return GL_RGBA32F;
         case PixelFormat::depth32f:
             return GL_DEPTH_COMPONENT32F;
+        case PixelFormat::depth32f_stencil8:
+            return GL_DEPTH32F_STENCIL8;
     }
     return GL_NONE;
+}
+
+bool has_depth(PixelFormat format) {
+    return format == PixelFormat::depth32f || format == PixelFormat::depth32f_stencil8;
+}
+
+bool is_half_float(PixelFormat format) {
+    return format == PixelFormat::r16f || format == PixelFormat::rg16f || format == PixelFormat::rgba16f;
 }
 
 std::uint32_t TexturePool::acquire(const TextureShape& shape) {

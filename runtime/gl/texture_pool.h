@@ -9,6 +9,8 @@
 namespace blush::gl {
 
 GLenum internal_format(PixelFormat format);
+bool has_depth(PixelFormat format);
+bool is_half_float(PixelFormat format);
 
 class TexturePool final : public TextureSource {
 public:

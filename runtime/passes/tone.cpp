@@ -7,17 +7,15 @@ namespace blush {
 
 void declare_tone(CharacterState& state) {
     const auto tone = [&state](const FrameGraph& graph) {
-        const View& view = *state.view;
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, view.framebuffer);
-        glViewport(0, 0, static_cast<GLsizei>(view.width), static_cast<GLsizei>(view.height));
+        bind_output(state, graph, state.resources.display);
         glUseProgram(state.tone_program.name());
         glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[state.resources.scene_color].handle);
         glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
-        glUniform1f(0, view.exposure);
+        glUniform1f(0, state.view->exposure);
         glBindVertexArray(state.no_attributes.name());
         glDrawArrays(GL_TRIANGLES, 0, 3);
     };
-    state.graph.pass("tone", tone).reads(state.resources.scene_color).writes(state.resources.target);
+    state.graph.pass("tone", tone).reads(state.resources.scene_color).writes(state.resources.display);
 }
 
 void declare_copy(CharacterState& state) {

@@ -37,6 +37,12 @@ TEST(Effects, HaveTheirFiveFacesAndNamesOfTheirOwn) {
         for (const Setting& setting : effect->settings) {
             EXPECT_TRUE(settings.insert(setting.name).second) << setting.name;
             EXPECT_TRUE(is_sentence_like(setting.meaning)) << setting.name;
+            if (setting.choices.empty()) {
+                EXPECT_LT(setting.lowest, setting.highest) << setting.name;
+                EXPECT_GE(setting.default_number, setting.lowest) << setting.name;
+                EXPECT_LE(setting.default_number, setting.highest) << setting.name;
+                continue;
+            }
             EXPECT_GE(setting.choices.size(), 2U) << setting.name;
             EXPECT_LT(setting.default_choice, setting.choices.size()) << setting.name;
             const std::set<std::string_view> choices(setting.choices.begin(), setting.choices.end());
@@ -52,10 +58,20 @@ TEST(EffectSettings, StartAtTheirDefaultsAndTakeEveryChoice) {
     const EffectSettings defaults;
     for (const Effect* effect : effects()) {
         for (const Setting& setting : effect->settings) {
+            const std::string name = std::string(effect->name) + "." + std::string(setting.name);
+            if (setting.choices.empty()) {
+                EXPECT_EQ(defaults.number(effect->name, setting.name), setting.default_number);
+                EffectSettings settings;
+                ASSERT_TRUE(settings.set(name, std::to_string(setting.highest)));
+                EXPECT_NEAR(settings.number(effect->name, setting.name), setting.highest, 1e-6);
+                EXPECT_FALSE(settings.set(name, std::to_string(2 * setting.highest + 1)));
+                EXPECT_FALSE(settings.set(name, "nan"));
+                EXPECT_FALSE(settings.set(name, "much"));
+                continue;
+            }
             EXPECT_EQ(defaults.choice(effect->name, setting.name), setting.default_choice);
             for (std::uint8_t c = 0; c < setting.choices.size(); ++c) {
                 EffectSettings settings;
-                const std::string name = std::string(effect->name) + "." + std::string(setting.name);
                 ASSERT_TRUE(settings.set(name, setting.choices[c]));
                 EXPECT_EQ(settings.choice(effect->name, setting.name), c);
                 EXPECT_EQ(settings == defaults, c == setting.default_choice);
