@@ -17,7 +17,8 @@ glm::vec3 unit_or(glm::dvec3 sum, glm::vec3 otherwise) {
     return glm::vec3(sum / std::sqrt(glm::dot(sum, sum)));
 }
 
-/// For each vertex the lowest-numbered vertex at the same position.
+}  // namespace
+
 std::vector<std::uint32_t> weld(std::span<const glm::vec3> positions) {
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -35,8 +36,6 @@ std::vector<std::uint32_t> weld(std::span<const glm::vec3> positions) {
     }
     return representative;
 }
-
-}  // namespace
 
 glm::vec3 any_perpendicular(glm::vec3 unit) {
     // The axis furthest from `unit` keeps the cross product away from zero (its length is at least sqrt(2/3)).

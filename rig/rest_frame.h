@@ -12,6 +12,9 @@ namespace blush {
 /// A unit vector at right angles to `unit`. Never fails: a zero or non-finite `unit` gives (1, 0, 0).
 glm::vec3 any_perpendicular(glm::vec3 unit);
 
+/// For each vertex the lowest-numbered vertex at the same position: file formats split vertices at texture seams.
+std::vector<std::uint32_t> weld(std::span<const glm::vec3> positions);
+
 /// Smooth vertex normals: the sum of the normals of the triangles around a vertex, each weighted by its angle there (as
 /// in rig/surface_normals.h), where vertices at the same position count as one vertex (file formats split vertices at
 /// texture seams). Unit length always; a vertex that no triangle of positive area touches gets (0, 0, 1). `triangles`:

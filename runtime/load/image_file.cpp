@@ -97,4 +97,18 @@ Image decode_image(ByteView encoded, std::uint32_t side_limit_pixels, std::uint6
     return image;
 }
 
+Bytes encode_png(std::uint32_t width, std::uint32_t height, std::uint32_t channels, ByteView pixels) {
+    Bytes bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create("memory.png", &memory);
+    if (!output) return {};
+    OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels),
+                         OIIO::TypeDesc::UINT8);
+    spec.attribute("png:compressionLevel", 6);
+    if (channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (!output->open("memory.png", spec)) return {};
+    if (!output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close()) return {};
+    return bytes;
+}
+
 }  // namespace blush::load

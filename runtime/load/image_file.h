@@ -26,4 +26,8 @@ struct StoredAs {
 Image decode_image(ByteView encoded, std::uint32_t side_limit_pixels, std::uint64_t& pixel_bytes_left,
                    const std::string& place, StoredAs* stored = nullptr);
 
+/// The picture as a PNG file: the same pixels give the same bytes. `pixels`: 8 bits, rows from the top, 1 to 4 channels
+/// interleaved. Empty when OpenImageIO has no PNG writer.
+Bytes encode_png(std::uint32_t width, std::uint32_t height, std::uint32_t channels, ByteView pixels);
+
 }  // namespace blush::load

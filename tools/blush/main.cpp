@@ -14,11 +14,14 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", BLUSH_VERSION);
     int exit_status = 0;
     blush::tool::add_info(app, exit_status);
+    blush::tool::add_import(app, exit_status);
     blush::tool::add_evaluate(app, exit_status);
     blush::tool::add_render(app, exit_status);
     blush::tool::add_play(app, exit_status);
     blush::tool::add_explain(app, exit_status);
     blush::tool::add_accuracy(app, exit_status);
+    blush::tool::add_bake(app, exit_status);
+    blush::tool::add_antialias(app, exit_status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

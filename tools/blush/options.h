@@ -59,10 +59,16 @@ int report_not_finite(const FrameReport& report);
 
 // One function a command: adds it to `app` and sets `exit_status` when it has run.
 void add_info(CLI::App& app, int& exit_status);
+void add_import(CLI::App& app, int& exit_status);
 void add_evaluate(CLI::App& app, int& exit_status);
 void add_render(CLI::App& app, int& exit_status);
 void add_play(CLI::App& app, int& exit_status);
 void add_explain(CLI::App& app, int& exit_status);
 void add_accuracy(CLI::App& app, int& exit_status);
+void add_bake(CLI::App& app, int& exit_status);
+void add_antialias(CLI::App& app, int& exit_status);
+
+// The subcommands of bake.
+void add_bake_smaa_tables(CLI::App& bake_command, int& exit_status);
 
 }  // namespace blush::tool

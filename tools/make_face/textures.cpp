@@ -1,8 +1,6 @@
 #include "tools/make_face/textures.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
+#include "runtime/load/image_file.h"
 #include "tools/make_face/eyes.h"
 #include "tools/make_face/hair.h"
 #include "tools/make_face/head_shape.h"
@@ -335,16 +333,8 @@ Picture paint_pores(const Head& head, int side) {
 }
 
 std::vector<unsigned char> png(const Picture& picture) {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const auto output = OIIO::ImageOutput::create("face.png", &memory);
-    if (!output) return {};
-    OIIO::ImageSpec spec(picture.side, picture.side, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("png:compressionLevel", 6);
-    if (!output->open("face.png", spec)) return {};
-    output->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data());
-    output->close();
-    return bytes;
+    const auto side = static_cast<std::uint32_t>(picture.side);
+    return load::encode_png(side, side, 3, picture.rgb);
 }
 
 }  // namespace blush::make_face
