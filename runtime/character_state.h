@@ -32,6 +32,7 @@ struct SceneFacts {
     bool any_turned_normals = false;          ///< some target of the face does
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
+    bool has_triangles = false;
     bool forced = false;
     // Of temporal antialiasing; false in other modes.
     bool has_last_frame = false;  ///< the last frame can be compared with this one

@@ -15,6 +15,8 @@ void find_facts(CharacterState& state, const View& view) {
     state.facts = {};
     state.facts.active_targets = static_cast<std::uint32_t>(state.active.size());
     state.facts.has_joints = !state.face.joints.empty();
+    state.facts.has_triangles = std::ranges::any_of(
+        state.face.primitives, [](const Primitive& primitive) { return primitive.index_count >= 3; });
     state.facts.forced = view.force_effects;
 
     const NormalMethod method =
@@ -209,7 +211,7 @@ void declare_picture(CharacterState& state, const View& view) {
 void draw_frame(CharacterState& state, const View& view) {
     begin_frame(state, view);
     const auto largest = static_cast<std::uint32_t>(std::max(1, state.device.info().largest_sample_count));
-    state.sampling = find_sampling(state.settings, view, largest, !state.face.indices.empty());
+    state.sampling = find_sampling(state.settings, view, largest, state.facts.has_triangles);
     find_last_frame(state, view);
     state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
     find_needs(state);

@@ -134,7 +134,7 @@ void find_settings(CharacterState& state, Antialiasing& own) {
 Need need(const CharacterState& state) {
     if (!state.sampling.filtered) {
         return {.on = false,
-                .reason = state.face.indices.empty() ? "the face has nothing to draw, so that the picture has no edges"
+                .reason = !state.facts.has_triangles ? "the face has nothing to draw, so that the picture has no edges"
                                                      : "antialiasing.mode asks for no filter",
                 .can_be_forced = false};
     }

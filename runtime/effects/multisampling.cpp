@@ -28,7 +28,10 @@ Resolve resolve_of(const CharacterState& state) {
 
 Need need(const CharacterState& state) {
     if (state.sampling.samples == 1) {
-        return {.on = false, .reason = "one sample a pixel is asked for", .can_be_forced = false};
+        return {
+            .on = false,
+            .reason = state.facts.has_triangles ? "one sample a pixel is asked for" : "the face has nothing to draw",
+            .can_be_forced = false};
     }
     return {.on = true, .reason = "several samples a pixel are asked for"};
 }

@@ -29,7 +29,10 @@ struct Supersampling {
 
 Need need(const CharacterState& state) {
     if (state.sampling.pictures == 1) {
-        return {.on = false, .reason = "one picture a frame is asked for", .can_be_forced = false};
+        return {
+            .on = false,
+            .reason = state.facts.has_triangles ? "one picture a frame is asked for" : "the face has nothing to draw",
+            .can_be_forced = false};
     }
     return {.on = true, .reason = "several pictures a frame are asked for"};
 }
@@ -50,8 +53,7 @@ void declare(CharacterState& state) {
         const bool encoded = state.view->output == Output::display_srgb;
         const bool last = state.picture + 1 == state.sampling.pictures;
         bind_output(state, graph, to);
-        average(state, pictures_so_far(state), graph[from].handle,
-                {encoded, encoded && last});
+        average(state, pictures_so_far(state), graph[from].handle, {encoded, encoded && last});
     };
     state.graph.pass("average pictures", mean).reads(images.from).writes(images.to);
     if (!state.on(velocities_effect)) return;
