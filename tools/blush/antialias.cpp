@@ -33,21 +33,29 @@ Pixels pixels_of(const Image& image) {
     return pixels;
 }
 
-/// Writes the pixels over the image, whose channels and numbers they came from.
-void put_into(const Pixels& pixels, Image& image) {
+/// Writes the pixels over the image, whose channels and numbers they came from. How many pixels changed.
+std::size_t put_into(const Pixels& pixels, Image& image) {
     const std::size_t channels = image.channels;
+    std::size_t changed = 0;
     for (std::size_t p = 0; p < pixels.cells.size(); ++p) {
+        bool differs = false;
+        const auto put = [&](auto& number, auto value) {
+            differs |= number != value;
+            number = value;
+        };
         for (std::size_t c = 0; c < channels; ++c) {
             const bool alpha = (channels == 2 || channels == 4) && c == channels - 1;
             const float value = pixels.cells[p][alpha ? 3 : static_cast<glm::length_t>(c)];
             const std::size_t i = p * channels + c;
             if (image.bytes.empty()) {
-                image.floats[i] = value;
+                put(image.floats[i], value);
             } else {
-                image.bytes[i] = static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+                put(image.bytes[i], static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F));
             }
         }
+        changed += differs ? 1U : 0U;
     }
+    return changed;
 }
 
 /// Three channels of 8 bits.
@@ -156,6 +164,12 @@ int antialias(const Options& options) {
     }
     Result<PictureFile> picture = load(options.input);
     if (!picture) return fail(picture.error());
+    const std::string ending = std::filesystem::path(options.output).extension().string();
+    if (picture->linear != (ending == ".exr" || ending == ".hdr")) {
+        return fail({options.output + ": " + options.input +
+                     (picture->linear ? " holds linear light, which goes into a .exr or .hdr file"
+                                      : " holds display values, which do not go into a " + ending + " file")});
+    }
     const Result<FilterRequest> request = request_of(options, *picture);
     if (!request) return fail(request.error());
     const Pixels pixels = pixels_of(picture->image);
@@ -165,7 +179,7 @@ int antialias(const Options& options) {
     if (!filtered) return fail(filtered.error());
 
     const int width = pixels.width, height = pixels.height;
-    put_into(filtered->picture, picture->image);
+    const std::size_t changed = put_into(filtered->picture, picture->image);
     if (Status written = write_picture(options.output, *picture); !written) return fail(written.error());
     if (!options.edges_file.empty()) {
         const auto color = [&](int x, int y) {
@@ -183,10 +197,8 @@ int antialias(const Options& options) {
         if (Status written = write_colors(options.weights_file, width, height, color); !written)
             return fail(written.error());
     }
-    std::size_t edge_count = 0, changed = 0;
+    std::size_t edge_count = 0;
     for (const glm::u8vec2 edge : filtered->edges.cells) edge_count += std::size_t{edge.x} + edge.y;
-    for (std::size_t p = 0; p < pixels.cells.size(); ++p)
-        changed += filtered->picture.cells[p] != pixels.cells[p] ? 1U : 0U;
     std::cout << options.output << ": " << width << "x" << height << ", " << edge_count << " edges, " << changed
               << " pixels changed\n";
     return 0;
@@ -202,7 +214,8 @@ void add_antialias(CLI::App& app, int& exit_status) {
         ->required();
     command
         ->add_option("-o,--output", options->output,
-                     "A .png, .exr, .jpg, .tif or .hdr file; keeps 16 bits and alpha where the format can")
+                     "A .png, .jpg or .tif file, or .exr or .hdr from one of those; keeps 16 bits and alpha where the "
+                     "format can")
         ->required();
     command->add_option("--mode", options->mode, "The filter")
         ->check(CLI::IsMember({"smaa1x", "mlaa"}))
