@@ -157,6 +157,19 @@ void draw_screen(const CharacterState& state) {
 
 namespace {
 
+/// An image that shading writes, and the one that it is resolved to: the same one where `shape` has one sample.
+ResourceId shaded_image(CharacterState& state, std::string_view multisampled, std::string_view single,
+                        TextureShape shape) {
+    const ResourceId from = state.graph.texture(multisampled, shape);
+    ResourceId to = from;
+    if (shape.samples > 1) {
+        shape.samples = 1;
+        to = state.graph.texture(single, shape);
+    }
+    state.resources.to_resolve[state.resources.resolve_count++] = {from, to};
+    return to;
+}
+
 void declare_picture(CharacterState& state, const View& view) {
     const bool last_picture = state.picture + 1 == state.sampling.pictures;
     const std::uint32_t phase = state.own<LastFrame>().phase;
@@ -170,16 +183,15 @@ void declare_picture(CharacterState& state, const View& view) {
     }
     declare_stage(state, Stage::light);
 
-    TextureShape color{PixelFormat::rgba16f, view.width, view.height, state.sampling.samples};
+    const TextureShape color{PixelFormat::rgba16f, view.width, view.height, state.sampling.samples};
     TextureShape depth = color;
     depth.format = PixelFormat::depth32f;
-    state.resources.scene_color_multisampled = state.graph.texture("scene colour, multisampled", color);
+    state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
+    state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
     state.resources.scene_depth = state.graph.texture("scene depth", depth);
-    color.samples = 1;
-    state.resources.scene_color = state.sampling.samples > 1 ? state.graph.texture("scene colour", color)
-                                                             : state.resources.scene_color_multisampled;
-    state.resources.target = last_picture ? state.graph.import_framebuffer("view", view.framebuffer, color)
-                                          : picture_store(state, picture_shape(view), state.graph);
+    state.resources.target = last_picture
+                                 ? state.graph.import_framebuffer("view", view.framebuffer, picture_shape(view))
+                                 : picture_store(state, picture_shape(view), state.graph);
     count_images(state, view, last_picture);
 
     declare_shade(state);
