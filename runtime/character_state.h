@@ -33,6 +33,7 @@ struct SceneFacts {
     bool any_turned_normals = false;          ///< some target of the face does
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
+    bool has_triangles = false;
     bool forced = false;
     // Of temporal antialiasing; false in other modes.
     bool has_last_frame = false;  ///< the last frame can be compared with this one
@@ -44,12 +45,13 @@ struct FrameResources {
     ResourceId positions{}, normals{}, tangents{};                          ///< the surface as far as it has come
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
-    /// Further multisampled images of the scene, which are resolved with the weights of the scene's colour.
-    struct Companion {
-        ResourceId multisampled{}, resolved{};
+    /// Multisampled images that shading writes and what they become, one sample a pixel: the scene's colour, and others
+    /// that are resolved with its weights.
+    struct Resolved {
+        ResourceId from{}, to{};
     };
-    std::array<Companion, 3> companions;
-    std::uint32_t companion_count = 0;
+    std::array<Resolved, 6> to_resolve{};
+    std::size_t resolve_count = 0;
     ResourceId
         velocities{};      ///< rgba16f: speed, velocity x and y, of the frame's last picture (effects/velocities.cpp)
     ResourceId speeds{};   ///< speeds as far as they have come: filtered, averaged

@@ -15,6 +15,8 @@ void find_facts(CharacterState& state, const View& view) {
     state.facts = {};
     state.facts.active_targets = static_cast<std::uint32_t>(state.active.size());
     state.facts.has_joints = !state.face.joints.empty();
+    state.facts.has_triangles = std::ranges::any_of(
+        state.face.primitives, [](const Primitive& primitive) { return primitive.index_count >= 3; });
     state.facts.forced = view.force_effects;
 
     const NormalMethod method =
@@ -156,6 +158,19 @@ void draw_screen(const CharacterState& state) {
 
 namespace {
 
+/// An image that shading writes, and the one that it is resolved to: the same one where `shape` has one sample.
+ResourceId shaded_image(CharacterState& state, std::string_view multisampled, std::string_view single,
+                        TextureShape shape) {
+    const ResourceId from = state.graph.texture(multisampled, shape);
+    ResourceId to = from;
+    if (shape.samples > 1) {
+        shape.samples = 1;
+        to = state.graph.texture(single, shape);
+    }
+    state.resources.to_resolve[state.resources.resolve_count++] = {from, to};
+    return to;
+}
+
 void declare_picture(CharacterState& state, const View& view) {
     const bool last_picture = state.picture + 1 == state.sampling.pictures;
     const std::uint32_t phase = state.own<LastFrame>().phase;
@@ -169,16 +184,15 @@ void declare_picture(CharacterState& state, const View& view) {
     }
     declare_stage(state, Stage::light);
 
-    TextureShape color{PixelFormat::rgba16f, view.width, view.height, state.sampling.samples};
+    const TextureShape color{PixelFormat::rgba16f, view.width, view.height, state.sampling.samples};
     TextureShape depth = color;
     depth.format = PixelFormat::depth32f;
-    state.resources.scene_color_multisampled = state.graph.texture("scene colour, multisampled", color);
+    state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
+    state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
     state.resources.scene_depth = state.graph.texture("scene depth", depth);
-    color.samples = 1;
-    state.resources.scene_color = state.sampling.samples > 1 ? state.graph.texture("scene colour", color)
-                                                             : state.resources.scene_color_multisampled;
-    state.resources.target = last_picture ? state.graph.import_framebuffer("view", view.framebuffer, color)
-                                          : picture_store(state, picture_shape(view), state.graph);
+    state.resources.target = last_picture
+                                 ? state.graph.import_framebuffer("view", view.framebuffer, picture_shape(view))
+                                 : picture_store(state, picture_shape(view), state.graph);
     count_images(state, view, last_picture);
 
     declare_shade(state);
@@ -210,7 +224,7 @@ void declare_picture(CharacterState& state, const View& view) {
 void draw_frame(CharacterState& state, const View& view) {
     begin_frame(state, view);
     const auto largest = static_cast<std::uint32_t>(std::max(1, state.device.info().largest_sample_count));
-    state.sampling = find_sampling(state.settings, view, largest, !state.face.indices.empty());
+    state.sampling = find_sampling(state.settings, view, largest, state.facts.has_triangles);
     find_last_frame(state, view);
     state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
     find_needs(state);

@@ -25,4 +25,7 @@ Result<PictureFile> load_picture(const std::filesystem::path& path);
 /// .exr (half or single), .tif, .jpg and others that OpenImageIO knows. Numbers are written as they are.
 Status write_picture(const std::filesystem::path& path, const PictureFile& picture);
 
+/// Whether write_picture() may succeed: the ending is known and the folder is there. Error: as of write_picture().
+Status can_write_picture(const std::filesystem::path& path);
+
 }  // namespace blush

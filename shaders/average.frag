@@ -4,7 +4,7 @@
 layout(binding = 0) uniform sampler2D mean_so_far;
 layout(binding = 1) uniform sampler2D picture;
 layout(location = 0) uniform float share;  // of `picture`: 1 / number of pictures so far
-layout(location = 1) uniform bvec3 encoded;  // sRGB: mean_so_far, picture, result
+layout(location = 1) uniform bvec2 encoded;  // sRGB: picture, result; mean_so_far is decoded by its texture
 layout(location = 0) out vec4 result;
 
 vec4 fetch(sampler2D image, bool decode) {
@@ -14,6 +14,6 @@ vec4 fetch(sampler2D image, bool decode) {
 
 void main() {
     // Not mix(): a mean of two must not depend on their order, so that a still frame is the same in both phases.
-    vec4 mean = (1.0 - share) * fetch(mean_so_far, encoded.x) + share * fetch(picture, encoded.y);
-    result = encoded.z ? vec4(srgb_from_linear(mean.rgb), mean.a) : mean;
+    vec4 mean = (1.0 - share) * fetch(mean_so_far, false) + share * fetch(picture, encoded.x);
+    result = encoded.y ? vec4(srgb_from_linear(mean.rgb), mean.a) : mean;
 }

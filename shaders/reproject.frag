@@ -1,23 +1,22 @@
 // The frame before, moved along the velocities, is blended into this one: jimenez-2012, 10.4.4.
 #include "srgb.glsl"
 
-layout(binding = 0) uniform sampler2D image;
-layout(binding = 1) uniform sampler2D last_image;
+layout(binding = 0) uniform sampler2D image;       // both are decoded by their texture where they are sRGB:
+layout(binding = 1) uniform sampler2D last_image;  // they are blended in linear light
 layout(binding = 2) uniform sampler2D velocities;   // speed, x, y; of this frame
 layout(binding = 3) uniform sampler2D speeds;       // filtered along with the image
 layout(binding = 4) uniform sampler2D last_speeds;  // filtered along with last_image
 layout(location = 0) uniform float falloff;         // K of equation 10.6
-layout(location = 1) uniform bool encoded;          // images are sRGB: they are blended in linear light
+layout(location = 1) uniform bool encoded;          // the result is to be sRGB
 layout(location = 2) uniform bool moves;            // false: every velocity and speed of this frame is zero
 layout(location = 3) uniform bool moved;            // the same of the last frame
 layout(location = 0) out vec4 result;
 
 vec4 fetch(sampler2D from, ivec2 pixel) {
-    vec4 color = texelFetch(from, clamp(pixel, ivec2(0), textureSize(from, 0) - 1), 0);
-    return encoded ? vec4(linear_from_srgb(color.rgb), color.a) : color;
+    return texelFetch(from, clamp(pixel, ivec2(0), textureSize(from, 0) - 1), 0);
 }
 
-// Bilinear by hand: in linear light, and bit for bit the texel itself where nothing moves.
+// Bilinear by hand: bit for bit the texel itself where nothing moves.
 struct Taps {
     ivec2 pixel;  // lower left of the four
     vec2 share;   // of the right and the upper two

@@ -1,6 +1,6 @@
 // Averages the samples of a pixel with weights that fall with the radiance, so that one burning sample does not drown the
 // others of an edge: w = 1 / (1 + exposure * largest channel), the weights with which the curve x / (1 + x) is applied to
-// every sample and taken back from the mean (Karis 2013, "Tone mapping", after Persson 2008, "HDR texturing"; the thesis
+// every sample and taken back from the mean (Karis 2013, after Persson 2008; the thesis
 // of 2012 resolves display values and has no rule of its own). The largest channel, and not luma: a saturated highlight
 // burns as a white one does. All images of a scene are averaged with the weights of the scene's colour.
 #include "shared.glsl"

@@ -16,7 +16,7 @@ bool same_stance(const CharacterState& state, const View& view, const Stance& st
 
 gl::Texture make_kept_texture(PixelFormat format, const TextureShape& shape) {
     gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
-    glTextureStorage2D(texture.name(), 1, gl::internal_format(format), static_cast<GLsizei>(shape.width),
+    glTextureStorage2D(texture.name(), 1, stored_format(format), static_cast<GLsizei>(shape.width),
                        static_cast<GLsizei>(shape.height));
     glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);

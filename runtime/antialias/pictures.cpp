@@ -7,7 +7,7 @@ namespace {
 
 gl::Texture make_store(PixelFormat format, const TextureShape& shape) {
     gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
-    glTextureStorage2D(texture.name(), 1, gl::internal_format(format), static_cast<GLsizei>(shape.width),
+    glTextureStorage2D(texture.name(), 1, stored_format(format), static_cast<GLsizei>(shape.width),
                        static_cast<GLsizei>(shape.height));
     return texture;
 }
@@ -16,6 +16,10 @@ gl::Texture make_store(PixelFormat format, const TextureShape& shape) {
 
 PixelFormat picture_format(Output output) {
     return output == Output::display_srgb ? PixelFormat::rgba8 : PixelFormat::rgba16f;
+}
+
+GLenum stored_format(PixelFormat format) {
+    return format == PixelFormat::rgba8 ? GL_SRGB8_ALPHA8 : gl::internal_format(format);
 }
 
 void begin_pictures(CharacterState& state) {

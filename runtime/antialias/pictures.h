@@ -8,6 +8,10 @@ namespace blush {
 /// Of a finished picture: 8-bit sRGB, or half-float radiance.
 PixelFormat picture_format(Output output);
 
+/// Of a picture that is kept to be averaged: display values are decoded where they are fetched, by the texture unit.
+/// (They are written as they are, since GL_FRAMEBUFFER_SRGB is off.)
+GLenum stored_format(PixelFormat format);
+
 struct Pictures {
     gl::Texture first;               ///< as the filter left it
     gl::Texture first_speeds;        ///< r16f: of a temporal mode

@@ -79,6 +79,7 @@ constexpr std::array<Setting, 12> settings = {{
 
 struct Antialiasing {
     std::optional<AntialiasPasses> passes;
+    EdgeTiles tiles;
     SmaaSettings smaa;
     MlaaSettings mlaa;
     SubsampleSlices slices{0};
@@ -133,7 +134,7 @@ void find_settings(CharacterState& state, Antialiasing& own) {
 Need need(const CharacterState& state) {
     if (!state.sampling.filtered) {
         return {.on = false,
-                .reason = state.face.indices.empty() ? "the face has nothing to draw, so that the picture has no edges"
+                .reason = !state.facts.has_triangles ? "the face has nothing to draw, so that the picture has no edges"
                                                      : "antialiasing.mode asks for no filter",
                 .can_be_forced = false};
     }
@@ -163,10 +164,10 @@ ResourceId declare_edges(CharacterState& state, ResourceId guide) {
     TextureShape shape{PixelFormat::rg8, state.view->width, state.view->height, 1};
     const ResourceId edges = state.graph.texture("edges", shape);
     const auto find = [&state, guide, edges](const FrameGraph& graph) {
-        const Antialiasing& own = state.own<Antialiasing>();
+        Antialiasing& own = state.own<Antialiasing>();
         const bool mlaa = state.sampling.mode == AntialiasingMode::mlaa;
         passes_of(state).edges(graph[guide].handle, graph[state.resources.scene_depth].handle,
-                               mlaa ? own.mlaa.edges : own.smaa.edges, meaning_of(Output::display_srgb),
+                               mlaa ? own.mlaa.edges : own.smaa.edges, meaning_of(Output::display_srgb), own.tiles,
                                target_of(state, graph, edges));
     };
     state.graph.pass("find edges", find).reads(guide).reads(state.resources.scene_depth).writes(edges);
@@ -180,9 +181,9 @@ ResourceId declare_weights(CharacterState& state, ResourceId edges) {
         const Antialiasing& own = state.own<Antialiasing>();
         const PassTarget target = target_of(state, graph, weights);
         if (state.sampling.mode == AntialiasingMode::mlaa) {
-            passes_of(state).mlaa_weights(graph[edges].handle, own.mlaa, target);
+            passes_of(state).mlaa_weights(graph[edges].handle, own.mlaa, own.tiles, target);
         } else {
-            passes_of(state).smaa_weights(graph[edges].handle, own.smaa, own.slices, target);
+            passes_of(state).smaa_weights(graph[edges].handle, own.smaa, own.slices, own.tiles, target);
         }
     };
     state.graph.pass("weigh edges", weigh).reads(edges).writes(weights);
@@ -192,7 +193,7 @@ ResourceId declare_weights(CharacterState& state, ResourceId edges) {
 void blend_pass(CharacterState& state, const FrameGraph& graph, const Antialiasing::Blend& blend,
                 const PictureMeaning& meaning) {
     passes_of(state).blend(graph[blend.image].handle, graph[blend.weights].handle, meaning,
-                           target_of(state, graph, blend.to));
+                           state.own<Antialiasing>().tiles, target_of(state, graph, blend.to));
 }
 
 /// Speeds go through the filter as the colours do, so that a blended pixel moves as what it was blended from

@@ -28,7 +28,10 @@ Resolve resolve_of(const CharacterState& state) {
 
 Need need(const CharacterState& state) {
     if (state.sampling.samples == 1) {
-        return {.on = false, .reason = "one sample a pixel is asked for", .can_be_forced = false};
+        return {
+            .on = false,
+            .reason = state.facts.has_triangles ? "one sample a pixel is asked for" : "the face has nothing to draw",
+            .can_be_forced = false};
     }
     return {.on = true, .reason = "several samples a pixel are asked for"};
 }
@@ -66,9 +69,8 @@ void declare(CharacterState& state) {
     Multisampling& own = state.own<Multisampling>();
     if (resolve_of(state) == Resolve::hdr) gl::require_program(own.program, {"screen.vert", "resolve.frag"});
     const FrameResources& resources = state.resources;
-    declare_one(state, resources.scene_color_multisampled, resources.scene_color);
-    for (std::uint32_t c = 0; c < resources.companion_count; ++c) {
-        declare_one(state, resources.companions[c].multisampled, resources.companions[c].resolved);
+    for (std::size_t i = 0; i < resources.resolve_count; ++i) {
+        declare_one(state, resources.to_resolve[i].from, resources.to_resolve[i].to);
     }
 }
 

@@ -32,10 +32,10 @@ Need need(const CharacterState& state) {
     const auto mode = static_cast<AntialiasingMode>(state.settings.choice("antialiasing", "mode"));
     const bool asked = mode == AntialiasingMode::smaa_t2x || mode == AntialiasingMode::smaa_4x;
     if (!asked) return off("antialiasing.mode takes nothing from the last frame");
-    if (!state.sampling.temporal && !state.face.indices.empty()) {
+    if (!state.facts.has_triangles) return off("the face has nothing to draw");
+    if (!state.sampling.temporal) {
         return off("there are no velocities (velocities.source=none): every frame stands alone");
     }
-    if (!state.sampling.temporal) return off("the face has nothing to draw");
     if (!state.facts.has_last_frame)
         return off("there is no last frame of this size and mode: it is the first, or a cut");
     return {.on = true, .reason = "antialiasing.mode takes half of its samples from the last frame"};
@@ -49,9 +49,12 @@ void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, 
     glUseProgram(state.own<Reprojection>().program.name());
     glBindTextureUnit(0, graph[from].handle);
     glBindTextureUnit(1, before.color.name());
-    glBindTextureUnit(2, moves ? graph[state.resources.velocities].handle : 0);
-    glBindTextureUnit(3, moves ? graph[state.resources.speeds].handle : 0);
-    glBindTextureUnit(4, before.has_speeds ? before.speeds.name() : 0);
+    // Never a name of 0, which would clear the unit's other targets, and they are the host's.
+    if (moves) {
+        glBindTextureUnit(2, graph[state.resources.velocities].handle);
+        glBindTextureUnit(3, graph[state.resources.speeds].handle);
+    }
+    if (before.has_speeds) glBindTextureUnit(4, before.speeds.name());
     glUniform1f(0, static_cast<float>(state.settings.number("reprojection", "falloff")));
     glUniform1i(1, state.view->output == Output::display_srgb ? 1 : 0);
     glUniform1i(2, moves ? 1 : 0);

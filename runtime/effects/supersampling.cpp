@@ -29,17 +29,20 @@ struct Supersampling {
 
 Need need(const CharacterState& state) {
     if (state.sampling.pictures == 1) {
-        return {.on = false, .reason = "one picture a frame is asked for", .can_be_forced = false};
+        return {
+            .on = false,
+            .reason = state.facts.has_triangles ? "one picture a frame is asked for" : "the face has nothing to draw",
+            .can_be_forced = false};
     }
     return {.on = true, .reason = "several pictures a frame are asked for"};
 }
 
-void average(CharacterState& state, GLuint mean_so_far, GLuint picture, glm::bvec3 encoded) {
+void average(CharacterState& state, GLuint mean_so_far, GLuint picture, glm::bvec2 encoded) {
     glUseProgram(state.own<Supersampling>().program.name());
     glBindTextureUnit(0, mean_so_far);
     glBindTextureUnit(1, picture);
     glUniform1f(0, 1.0F / static_cast<float>(state.picture + 1));
-    glUniform3i(1, encoded.x ? 1 : 0, encoded.y ? 1 : 0, encoded.z ? 1 : 0);
+    glUniform2i(1, encoded.x ? 1 : 0, encoded.y ? 1 : 0);
     draw_screen(state);
 }
 
@@ -50,8 +53,7 @@ void declare(CharacterState& state) {
         const bool encoded = state.view->output == Output::display_srgb;
         const bool last = state.picture + 1 == state.sampling.pictures;
         bind_output(state, graph, to);
-        average(state, pictures_so_far(state), graph[from].handle,
-                {encoded && state.picture == 1, encoded, encoded && last});
+        average(state, pictures_so_far(state), graph[from].handle, {encoded, encoded && last});
     };
     state.graph.pass("average pictures", mean).reads(images.from).writes(images.to);
     if (!state.on(velocities_effect)) return;
@@ -60,7 +62,7 @@ void declare(CharacterState& state) {
     const ResourceId from = state.resources.speeds, to = import_kept_speeds(state);
     const auto mean_speed = [&state, from, to](const FrameGraph& graph) {
         bind_output(state, graph, to);
-        average(state, state.own<Pictures>().first_speeds.name(), graph[from].handle, glm::bvec3(false));
+        average(state, state.own<Pictures>().first_speeds.name(), graph[from].handle, glm::bvec2(false));
     };
     state.graph.pass("average speeds", mean_speed).reads(from).writes(to);
     state.resources.speeds = to;

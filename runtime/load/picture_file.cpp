@@ -54,13 +54,26 @@ OIIO::TypeDesc type_of(PictureDepth depth) {
 
 }  // namespace
 
+namespace {
+
+Error unknown_ending(const std::filesystem::path& path) {
+    return Error{path.string() + ": no picture format is known by the ending \"" + path.extension().string() + "\""};
+}
+
+}  // namespace
+
+Status can_write_picture(const std::filesystem::path& path) {
+    if (!OIIO::ImageOutput::create(path.string())) return unknown_ending(path);
+    // What would be written is refused, so that nothing is; only what is in the way before has a sentence.
+    const Status tried = write_beside(path, [](const std::filesystem::path&) -> Status { return Error{}; });
+    if (!tried.error().message.empty()) return tried.error();
+    return Done{};
+}
+
 Status write_picture(const std::filesystem::path& path, const PictureFile& picture) {
     const Image& image = picture.image;
     const auto output = OIIO::ImageOutput::create(path.string());
-    if (!output) {
-        return Error{path.string() + ": no picture format is known by the ending \"" + path.extension().string() +
-                     "\""};
-    }
+    if (!output) return unknown_ending(path);
     return write_beside(path, [&](const std::filesystem::path& beside) -> Status {
         const bool has_alpha = image.channels == 2 || image.channels == 4;
         const bool drop_alpha = has_alpha && output->supports("alpha") == 0;

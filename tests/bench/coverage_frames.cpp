@@ -27,6 +27,8 @@ double linear_from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((
 
 CoverageFrames::CoverageFrames(const Device& device, std::vector<CoverageShape> shapes, float radiance)
     : device_(device), shapes_(std::move(shapes)), radiance_(radiance) {
+    constexpr double edge = coverage_side_pixels;
+    shapes_.push_back({"full", {{{0, 0}, {edge, 0}, {edge, edge}, {0, edge}}}});
     constexpr auto side = static_cast<std::uint32_t>(coverage_side_pixels);
     for (const Output output : {Output::display_srgb, Output::linear_hdr}) {
         offscreens_.push_back(must(Offscreen::create(device, side, side, output)));
@@ -78,18 +80,21 @@ Face CoverageFrames::face() const {
 }
 
 std::size_t CoverageFrames::add(const Mode& mode) {
-    drawn_.push_back({must(Character::create(device_, face())), mode.output});
+    drawn_.push_back({must(Character::create(device_, face())), mode.output, 1});
     for (const auto& [setting, choice] : mode.settings) {
         if (const Status done = drawn_.back().character.set(setting, choice); !done) {
             std::fprintf(stderr, "%s\n", done.error().message.c_str());
             std::exit(2);
         }
     }
-    return drawn_.size() - 1;
+    const std::size_t number = drawn_.size() - 1;
+    drawn_[number].full = show(number, shapes_.size() - 1).at(coverage_side_pixels / 2, coverage_side_pixels / 2);
+    return number;
 }
 
 View CoverageFrames::view_of(std::size_t shape, Output output, glm::dvec2 offset_pixels) const {
-    constexpr float half = 0.5F * coverage_side_pixels, distance = 10;
+    // Far away, so that every point is seen from the front: at a grazing angle even a black surface reflects.
+    constexpr float half = 0.5F * coverage_side_pixels, distance = 1e4F;
     const glm::vec2 middle = corner_of(shape) + glm::vec2(half, -half) +
                              glm::vec2(static_cast<float>(offset_pixels.x), -static_cast<float>(offset_pixels.y));
     View view = offscreens_[output == Output::display_srgb ? 0 : 1].view();
@@ -108,18 +113,10 @@ Grid<double> CoverageFrames::show(std::size_t mode, std::size_t shape, glm::dvec
     if (incomplete) drawn.character.draw(view);
     const Image image = offscreens_[drawn.output == Output::display_srgb ? 0 : 1].read();
     Grid<double> shares(coverage_side_pixels, coverage_side_pixels, 0.0);
-    double full = static_cast<double>(radiance_);
-    if (drawn.output == Output::display_srgb) {
-        // Light that the full shape shows: the brightest pixel there is, since every shape fills some.
-        full = 0;
-        for (std::size_t p = 0; p < image.bytes.size(); p += 4) {
-            full = std::max(full, linear_from_srgb(image.bytes[p] / 255.0));
-        }
-    }
     for (std::size_t p = 0; p < shares.cells.size(); ++p) {
         const double light = image.bytes.empty() ? static_cast<double>(image.floats[4 * p])
                                                  : linear_from_srgb(image.bytes[4 * p] / 255.0);
-        shares.cells[p] = light / full;
+        shares.cells[p] = light / drawn.full;
     }
     return shares;
 }

@@ -33,6 +33,7 @@ private:
     struct Drawn {
         Character character;
         Output output = Output::linear_hdr;
+        double full = 1;  // light of a pixel that is all covered
     };
     Face face() const;
     glm::vec2 corner_of(std::size_t shape) const;

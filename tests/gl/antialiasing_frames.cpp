@@ -44,9 +44,12 @@ protected:
                           static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
         return values;
     }
+    /// Of 255, beyond one step of 8 bits: means of rounded pictures round otherwise than one picture does.
     static double difference(const Image& a, const Image& b) {
         double sum = 0;
-        for (std::size_t i = 0; i < a.bytes.size(); ++i) sum += std::abs(int{a.bytes[i]} - int{b.bytes[i]});
+        for (std::size_t i = 0; i < a.bytes.size(); ++i) {
+            sum += std::max(0, std::abs(int{a.bytes[i]} - int{b.bytes[i]}) - 1);
+        }
         return sum / static_cast<double>(a.bytes.size());
     }
 };
@@ -184,7 +187,7 @@ TEST_F(AntialiasingFrames, SupersamplingIsTheMeanOfItsPicturesInLinearLight) {
     for (std::size_t i = 0; i < mean.size(); ++i) {
         if (i % 4 != 3) worst = std::max(worst, std::abs(255 * srgb_from_linear(mean[i]) - image.bytes[i]));
     }
-    EXPECT_LE(worst, 0.51) << "half a step of 8 bits";
+    EXPECT_LE(worst, 0.6) << "half a step of 8 bits, and a texture unit's rounding of sRGB";
 }
 
 // --- convergence, and what is left out -------------------------------------------------------------------------------
@@ -202,7 +205,7 @@ TEST_F(AntialiasingFrames, AStillFaceConvergesToOnePicture) {
         const Image first = draw(character, offscreen, view), second = draw(character, offscreen, view);
         EXPECT_NE(first.bytes, second.bytes);
         for (int frame = 2; frame < 6; ++frame) EXPECT_EQ(draw(character, offscreen, view).bytes, second.bytes);
-        EXPECT_LT(difference(second, truth), difference(alone, truth));
+        EXPECT_LT(difference(second, truth), 0.9 * difference(alone, truth));
         // The face moves and stops: the same picture again.
         test::set_weights(character, {1, 0});
         draw(character, offscreen, view);
@@ -216,7 +219,7 @@ TEST_F(AntialiasingFrames, AStillFaceConvergesToOnePicture) {
 TEST_F(AntialiasingFrames, ForcingChangesNoByteInAnyModeStillOrMoving) {
     const Face face = make_face({.side = 14, .targets = 2});
     for (const Output output : {Output::display_srgb, Output::linear_hdr}) {
-        const Offscreen offscreen = make_offscreen(40, 40, output);
+        const Offscreen offscreen = make_offscreen(24, 24, output);
         for (const std::string_view mode : antialiasing_modes) {
             SCOPED_TRACE(mode);
             Character plain = character_in(std::string(mode), face), forced = character_in(std::string(mode), face);
@@ -273,6 +276,21 @@ TEST_F(AntialiasingFrames, SaysWhatIsLeftOutAndWhy) {
     EXPECT_EQ(effect(report, "antialiasing").reason, "antialiasing.mode asks for no filter");
     EXPECT_EQ(effect(report, "multisampling").reason, "one sample a pixel is asked for");
     EXPECT_FALSE(character.state().own<LastFrame>().positions) << "what is off keeps nothing";
+}
+
+TEST_F(AntialiasingFrames, AFaceThatIsNotThereNeedsOneSampleInEveryMode) {
+    Face face = make_face({.side = 14, .targets = 1});
+    for (Primitive& primitive : face.primitives) primitive.index_count = 0;
+    const Offscreen offscreen = make_offscreen(8, 8);
+    std::vector<std::uint8_t> background;
+    for (const std::string_view mode : antialiasing_modes) {
+        Character character = character_in(std::string(mode), face);
+        const View view = framed_view(character, offscreen);
+        const Image image = draw(character, offscreen, view);
+        if (background.empty()) background = image.bytes;
+        EXPECT_EQ(image.bytes, background) << mode;
+        EXPECT_EQ(character.state().sampling, Sampling{}) << mode;
+    }
 }
 
 TEST_F(AntialiasingFrames, WithoutVelocitiesEveryFrameIsThatOfTheFilterAlone) {
