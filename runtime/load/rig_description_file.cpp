@@ -169,8 +169,8 @@ private:
             if (const Json* high = find(value, "high")) limit.high = number(*high, place + ".high");
             if (const Json* with = find(value, "with")) limit.with = name(*with, place + ".with");
             if (const Json* own = find(value, "holds_own")) limit.holds_own = truth(*own, place + ".holds_own");
-            std::erase_if(into_.limits,
-                          [&](const Limit& known) { return canonical_name(known.control) == canonical_name(key); });
+            const std::string control = canonical_name(key);
+            std::erase_if(into_.limits, [&](const Limit& known) { return canonical_name(known.control) == control; });
             into_.limits.push_back(std::move(limit));
         }
     }
