@@ -63,7 +63,7 @@
 #define BLUSH_AA_WEIGHTS_UNIT 1
 
 // Storage block of the antialiasing passes: tiles with edges, and their side. Small tiles follow a contour closely,
-// large ones are fewer to draw; 8 was the fastest of 4, 8, 16 and 32 (bench_antialias, llvmpipe).
+// large ones are fewer to draw: 16 took longer than 8 on llvmpipe (bench_antialias).
 #define BLUSH_AA_TILES_BINDING 0
 #define BLUSH_AA_TILE_PIXELS 8
 

@@ -85,11 +85,11 @@ double error_of(const Image& image, const Image& reference) {
     return sum / static_cast<double>(image.bytes.size());
 }
 
-/// Of a still face, with as many frames as the mode needs.
-Image still(Character& character, View view, const Offscreen& offscreen) {
+/// Of a still face.
+Image still(Character& character, View view, const Offscreen& offscreen, int frames) {
     pose(character, 0);
     view.timed = false;
-    for (int frame = 0; frame < 3; ++frame) character.draw(view);
+    for (int frame = 0; frame < frames; ++frame) character.draw(view);
     return offscreen.read();
 }
 
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     };
     std::optional<Subject> reference = make({"supersampled", 0});
     if (!reference || !reference->character.set("supersampling.factor", "8")) return 2;
-    const Image truth = still(reference->character, reference->view, *offscreen);
+    const Image truth = still(reference->character, reference->view, *offscreen, 1);
 
     std::vector<Subject> subjects;
     std::vector<double> errors;
@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
     for (const Mode& mode : modes) {
         std::optional<Subject> subject = make(mode);
         if (!subject) return 2;
-        errors.push_back(mode.empty ? 0 : error_of(still(subject->character, subject->view, *offscreen), truth));
+        errors.push_back(mode.empty ? 0 : error_of(still(subject->character, subject->view, *offscreen, 3), truth));
         good &= mode.empty || errors.size() == 1 || errors.back() < errors.front();
         subjects.push_back(*std::move(subject));
     }
