@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 include(public_headers)
 
-install(TARGETS blush_options blush_shaders blush_rig blush_load blush_runtime EXPORT blushTargets
+install(TARGETS blush_options blush_shaders blush_rig blush_load blush_script blush_runtime EXPORT blushTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 set_target_properties(blush_options PROPERTIES EXPORT_NAME options)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/blush)

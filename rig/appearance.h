@@ -29,6 +29,8 @@ struct AlbedoOptions {
     float lightness_weight = 0.35F;
     /// What the typical skin of the face holds, where that is known; else the point of the table nearest to it.
     std::optional<float> typical_melanin, typical_hemoglobin;
+    /// Where the typical skin is looked for: above one half, of any size (face_region()); or nothing for everywhere.
+    const ScalarMap* typical_region = nullptr;
 };
 
 /// How well the table explains the texture, over its skin.

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "rig/names.h"
+#include "rig/uv_raster.h"
 
 namespace blush {
 namespace {
@@ -45,12 +46,13 @@ std::optional<std::uint32_t> primitive_of(const Face& face, std::uint32_t vertex
     return std::nullopt;
 }
 
-std::vector<bool> primitives_moved(const Face& face, const Target* target) {
-    std::vector<bool> moved(face.primitives.size(), false);
+/// How many vertices of each primitive a target moves.
+std::vector<std::size_t> vertices_moved(const Face& face, const Target* target) {
+    std::vector<std::size_t> moved(face.primitives.size(), 0);
     if (!target) return moved;
     for (std::size_t i = 0; i < target->vertices.size(); ++i) {
         if (target->position_deltas[i] == glm::vec3(0)) continue;
-        if (const auto p = primitive_of(face, target->vertices[i])) moved[*p] = true;
+        if (const auto p = primitive_of(face, target->vertices[i])) ++moved[*p];
     }
     return moved;
 }
@@ -98,51 +100,21 @@ void spread_to_empty(Map<T>& map, std::vector<bool> filled) {
 
 float cross(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
 
-std::uint32_t wrapped(std::int64_t i, std::uint32_t size) {
-    const auto n = static_cast<std::int64_t>(size);
-    return static_cast<std::uint32_t>(((i % n) + n) % n);
-}
-
-/// Writes `values`, interpolated, into the texels whose centres lie in the triangle. `corners` are in texels.
-void draw_triangle(CanonicalMap& map, const std::array<glm::vec2, 3>& corners, const std::array<glm::vec2, 3>& values) {
-    const float area = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    if (!std::isfinite(area) || area == 0) return;
-    glm::vec2 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
-    glm::vec2 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
-    // A triangle may repeat the texture, but no face needs it more than this often; a wild coordinate costs no hour.
-    const glm::vec2 size(map.coverage.width, map.coverage.height);
-    if (glm::any(glm::greaterThan(high - low, 2.0F * size)) || glm::any(glm::greaterThan(glm::abs(low), 1e6F * size))) {
-        return;
-    }
-    const auto first_x = static_cast<std::int64_t>(std::floor(low.x)),
-               first_y = static_cast<std::int64_t>(std::floor(low.y));
-    const auto last_x = static_cast<std::int64_t>(std::ceil(high.x)),
-               last_y = static_cast<std::int64_t>(std::ceil(high.y));
-    for (std::int64_t y = first_y; y <= last_y; ++y) {
-        for (std::int64_t x = first_x; x <= last_x; ++x) {
-            const glm::vec2 centre(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-            const float b1 = cross(centre - corners[0], corners[2] - corners[0]) / area;
-            const float b2 = cross(corners[1] - corners[0], centre - corners[0]) / area;
-            const float b0 = 1 - b1 - b2;
-            if (b0 < 0 || b1 < 0 || b2 < 0) continue;
-            const std::uint32_t tx = wrapped(x, map.coverage.width), ty = wrapped(y, map.coverage.height);
-            map.canonical_mm.at(tx, ty) = b0 * values[0] + b1 * values[1] + b2 * values[2];
-            map.coverage.at(tx, ty) = 1;
-        }
-    }
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> skin_primitives(const Face& face) {
-    const std::vector<bool> lids = primitives_moved(face, find_target(face, left_eye_names));
+    const std::vector<std::size_t> lids = vertices_moved(face, find_target(face, left_eye_names));
     const Target* smile = find_target(face, left_mouth_names);
-    const std::vector<bool> mouth = primitives_moved(face, smile ? smile : find_target(face, middle_mouth_names));
-    std::vector<std::uint32_t> primitives;
+    const std::vector<std::size_t> mouth = vertices_moved(face, smile ? smile : find_target(face, middle_mouth_names));
+    std::vector<std::uint32_t> both;
     for (std::uint32_t p = 0; p < face.primitives.size(); ++p) {
-        if (lids[p] && mouth[p]) primitives.push_back(p);
+        if (lids[p] > 0 && mouth[p] > 0) both.push_back(p);
     }
-    return primitives;
+    if (both.empty()) return both;
+    // Lashes can move with both too; the skin is what the mouth moves most of, with all that shares its material.
+    const std::uint32_t skin = *std::ranges::max_element(both, {}, [&](std::uint32_t p) { return mouth[p]; });
+    std::erase_if(both, [&](std::uint32_t p) { return face.primitives[p].material != face.primitives[skin].material; });
+    return both;
 }
 
 std::optional<FaceLandmarks> landmarks_from_targets(const Face& face, std::span<const std::uint32_t> primitives) {
@@ -198,27 +170,32 @@ glm::vec2 CanonicalFrame::canonical_mm(const glm::vec3& position) const {
 std::optional<CanonicalMap> canonical_map(const Face& face, std::span<const std::uint32_t> primitives,
                                           const CanonicalFrame& frame, std::uint32_t width, std::uint32_t height) {
     assert(frame.usable() && width > 0 && height > 0);
-    CanonicalMap map{Map<glm::vec2>(width, height), ScalarMap(width, height)};
-    const glm::vec2 size(width, height);
+    std::vector<std::uint8_t> drawn(face.primitives.size(), 0);
+    for (const std::uint32_t p : primitives) drawn[p] = 1;
+    const UvRaster raster = rasterize_uv(face, drawn, 0, width, height);
+    const std::vector<std::uint32_t> nearest = nearest_covered(raster);
+    if (nearest.empty()) return std::nullopt;
+
+    std::vector<glm::vec2> of_vertex;
+    for (const glm::vec3 position : face.positions) of_vertex.push_back(frame.canonical_mm(position));
     const float turn = CanonicalFrame::turn_mm();
-    for (const std::uint32_t p : primitives) {
-        const Primitive& primitive = face.primitives[p];
-        for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {
-            std::array<glm::vec2, 3> corners, values;
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t v = face.indices[primitive.first_index + i + k];
-                corners[k] = face.uv0[v] * size;
-                values[k] = frame.canonical_mm(face.positions[v]);
-                // Across the seam at the back of the head, x runs on beyond half a turn instead of jumping back.
-                if (k > 0) values[k].x -= turn * std::round((values[k].x - values[0].x) / turn);
-            }
-            draw_triangle(map, corners, values);
+    CanonicalMap map{Map<glm::vec2>(width, height), ScalarMap(width, height)};
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        if (!raster.covered(i)) continue;
+        const UvTexel& texel = raster.texels[i];
+        const std::uint32_t* const corners = &face.indices[std::size_t{texel.triangle} * 3];
+        const glm::vec2 first = of_vertex[corners[0]];
+        glm::vec2 sum = texel.corner_weights[0] * first;
+        for (glm::length_t k = 1; k < 3; ++k) {
+            glm::vec2 corner = of_vertex[corners[k]];
+            // Across the seam at the back of the head, x runs on beyond half a turn instead of jumping back.
+            corner.x -= turn * std::round((corner.x - first.x) / turn);
+            sum += texel.corner_weights[k] * corner;
         }
+        map.canonical_mm.values[i] = sum;
+        map.coverage.values[i] = 1;
     }
-    std::vector<bool> covered(map.coverage.values.size());
-    for (std::size_t i = 0; i < covered.size(); ++i) covered[i] = map.coverage.values[i] > 0;
-    if (std::ranges::find(covered, true) == covered.end()) return std::nullopt;
-    spread_to_empty(map.canonical_mm, std::move(covered));
+    for (std::size_t i = 0; i < nearest.size(); ++i) map.canonical_mm.values[i] = map.canonical_mm.values[nearest[i]];
     return map;
 }
 
@@ -239,6 +216,16 @@ std::optional<CanonicalMap> canonical_map(const TextureLandmarks& landmarks, std
         }
     }
     return map;
+}
+
+ScalarMap face_region(const CanonicalMap& map) {
+    constexpr float sides_mm = 80, top_mm = 50, bottom_mm = -110;
+    ScalarMap region = map.coverage;
+    for (std::size_t i = 0; i < region.values.size(); ++i) {
+        const glm::vec2 place = map.canonical_mm.values[i];
+        if (std::abs(place.x) > sides_mm || place.y > top_mm || place.y < bottom_mm) region.values[i] = 0;
+    }
+    return region;
 }
 
 ScalarMap carried(const ScalarMap& values, const CanonicalMap& from, const CanonicalMap& to) {

@@ -31,8 +31,8 @@ struct FaceLandmarks {
     float eye_height_mm = 0, mouth_height_mm = canonical_mouth_mm;
 };
 
-/// The primitives that carry facial skin: those that the eyelids' targets and the mouth's both move. Indices into
-/// Face::primitives; empty where the targets do not say.
+/// The primitives that carry facial skin: those of one material that the eyelids' targets and the mouth's both move.
+/// Indices into Face::primitives; empty where the targets do not say.
 std::vector<std::uint32_t> skin_primitives(const Face& face);
 
 /// Landmarks from what the face's targets move: the lids close over the eyes, smiles pull at the mouth. Nothing where
@@ -61,8 +61,8 @@ struct CanonicalMap {
     ScalarMap coverage;           ///< 1 where a triangle covers the texel's centre, else 0
 };
 
-/// From the geometry: the triangles of these primitives, drawn in their own texture layout (uv0, which repeats). Where
-/// triangles overlap, the last one counts. Nothing where no texel is covered.
+/// From the geometry: the triangles of these primitives in their own texture layout (uv0; rig/uv_raster.h says how
+/// repeats and overlaps count). Nothing where no texel is covered.
 std::optional<CanonicalMap> canonical_map(const Face& face, std::span<const std::uint32_t> primitives,
                                           const CanonicalFrame& frame, std::uint32_t width, std::uint32_t height);
 
@@ -72,6 +72,10 @@ struct TextureLandmarks {
     glm::vec2 left_eye{0}, right_eye{0}, mouth{0};
 };
 std::optional<CanonicalMap> canonical_map(const TextureLandmarks& landmarks, std::uint32_t width, std::uint32_t height);
+
+/// 1 where a texel shows the face proper, from the brows to the chin and to before the ears, else 0: the skin that a
+/// face's colour is judged by, without scalp, body and gums.
+ScalarMap face_region(const CanonicalMap& map);
 
 /// A map of one face in the layout of another: every texel of `to` takes the value that `from` has at the same place of
 /// the mean face, by a grid of 2 mm. `values` is of `from`'s size; the result of `to`'s.

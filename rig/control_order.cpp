@@ -45,6 +45,7 @@ ControlOrder order_controls(std::span<const Dependence> dependences) {
     }
     path.erase(path.begin(), std::ranges::find(path, at));
     result.cycle.assign(path.rbegin(), path.rend());
+    std::rotate(result.cycle.begin(), std::ranges::min_element(result.cycle), result.cycle.end());
     return result;
 }
 

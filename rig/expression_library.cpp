@@ -35,7 +35,7 @@ constexpr ExpressionRow action_units[] = {
     {"AU18", "lip pucker", "mouthPucker 1"},
     {"AU20", "lip stretcher", "mouthStretch* 1"},
     {"AU22", "lip funneler", "mouthFunnel 1"},
-    {"AU23", "lip tightener", "mouthPress* 0.4, mouthRollLower 0.3, mouthRollUpper 0.3"},
+    {"AU23", "lip tightener", "mouthPress* 0.25, mouthRollLower 0.45, mouthRollUpper 0.4"},
     {"AU24", "lip pressor", "mouthPress* 1"},
     {"AU25", "lips part", "mouthLowerDown* 0.35, mouthUpperUp* 0.2"},
     {"AU26", "jaw drop", "jawOpen 0.4"},
@@ -65,13 +65,13 @@ constexpr ExpressionRow action_units[] = {
 /// Units that these list as frequent but not constant have the lower weights. The intensities within a prototype are
 /// ours, set by eye.
 constexpr ExpressionRow emotions[] = {
-    {"joy", "6+12+25: a Duchenne smile", "AU6 0.8, AU12 0.9, AU25 0.5"},
+    {"joy", "6+12+25, with 26: a Duchenne smile", "AU6 0.8, AU12 0.9, AU25 0.65, AU26 0.1"},
     {"sadness", "1+4+15, with 11 and 17", "AU1 0.9, AU4 0.35, AU15 0.75, AU11 0.3, AU17 0.45, AU43 0.15, AU64 0.2"},
-    {"anger", "4+5+7+23, with 10, 17 and 24", "AU4 1, AU5 0.4, AU7 0.6, AU23 0.8, AU24 0.4, AU17 0.3, AU10 0.15"},
+    {"anger", "4+5+7+23, with 10, 17 and 24", "AU4 1, AU5 0.4, AU7 0.6, AU23 0.8, AU24 0.25, AU17 0.45, AU10 0.15"},
     {"fear", "1+2+4+5+20+25, with 7 and 26",
      "AU1 0.9, AU2 0.55, AU4 0.45, AU5 0.9, AU20 0.8, AU25 0.7, AU26 0.5, AU7 0.2"},
-    {"disgust", "9+10+17, with 4 and 15", "AU9 0.9, AU10 0.6, AU17 0.5, AU15 0.4, AU4 0.3, AU7 0.4, AU6 0.2"},
-    {"surprise", "1+2+5+25+26", "AU1 1, AU2 1, AU5 0.65, AU25 0.3, AU26 0.9"},
+    {"disgust", "9+10+17, with 4 and 15", "AU9 0.9, AU10 0.4, AU17 0.5, AU15 0.4, AU4 0.3, AU7 0.4, AU6 0.2"},
+    {"surprise", "1+2+5+25+26, on the way to 27", "AU1 0.8, AU2 1, AU5 0.65, AU25 0.1, AU26 0.8, AU27 0.25"},
 };
 
 /// `blood` says whose hemoglobin map the state takes, where its parts do not bring one.
@@ -84,8 +84,8 @@ constexpr CompoundRow compounds[] = {
      "AU6 0.75, AU12 0.75", "joy 0.75"},
     {"socialSmile", "a posed smile: the lip corners alone, no AU6 (Ekman, Davidson, Friesen 1990)", "AU12 0.75",
      "joy 0.35"},
-    {"sadSmile", "the sad smile of jimenez-2012, figure 7.1", "sadness 0.65, AU12 0.6, AU6 0.2", ""},
-    {"fearIntoAnger", "fear as it turns into anger: equal shares of both", "fear 0.5, anger 0.6", ""},
+    {"sadSmile", "the sad smile of jimenez-2012, figure 7.1", "sadness 0.8, AU12 0.7, AU6 0.2", ""},
+    {"fearIntoAnger", "fear as it turns into anger", "fear 0.5, anger 0.6", ""},
     {"shySmile", "a smile held back, the gaze and the head going down (Keltner 1995: 12+24+64+54), with a blush",
      "AU12 0.55, AU6 0.3, AU24 0.35, AU64 0.45, AU54 0.3, AU51 0.15, blush 0.6", ""},
     {"embarrassment", "12+24+64+54+51 and a blush (Keltner 1995)",

@@ -106,9 +106,9 @@ ScalarMap matched_locally(const ScalarMap& source, const ScalarMap& target, floa
             disc_values(target, static_cast<int>(x), static_cast<int>(y), radius, to);
             if (!std::isfinite(value) || to.empty()) continue;
             // Percentile of the value: the middle of its run of equals, so that a flat disc stands at one half.
-            const auto run = std::ranges::equal_range(from, value);
-            const double before = static_cast<double>(run.begin() - from.begin());
-            const double percentile = (before + static_cast<double>(run.size()) / 2) / static_cast<double>(from.size());
+            const auto [first, last] = std::equal_range(from.begin(), from.end(), value);
+            const double before = static_cast<double>(first - from.begin()), run = static_cast<double>(last - first);
+            const double percentile = (before + run / 2) / static_cast<double>(from.size());
             const double place =
                 std::clamp(percentile * static_cast<double>(to.size()) - 0.5, 0.0, static_cast<double>(to.size() - 1));
             const auto below = static_cast<std::size_t>(place);

@@ -30,7 +30,8 @@ struct HemoglobinPattern {
     std::vector<SoftEllipse> regions;  ///< they add up
 };
 
-/// The names of the patterns that the project ships, in the order of Pose::hemoglobin's usual use.
+/// The names of the patterns that the project ships, in the order of Rig::hemoglobin_maps() of a face without a rig
+/// description of its own.
 extern const std::vector<std::string> hemoglobin_pattern_names;
 
 /// The pattern's change at a place of the mean face. The mean cannot fall below -0.95: some blood always stays.

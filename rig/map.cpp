@@ -53,7 +53,7 @@ Map<T> area_means(const Map<T>& map, std::uint32_t width, std::uint32_t height, 
                     const std::uint32_t from_x = columns[x].first + i, from_y = rows[y].first + j;
                     const double share = rows[y].shares[j] * columns[x].shares[i];
                     const double weight = share * weight_at(from_x, from_y);
-                    const Wide value(map.at(from_x, from_y));
+                    const auto value = static_cast<Wide>(map.at(from_x, from_y));
                     weighted += weight * value;
                     plain += share * value;
                     weights += weight;

@@ -159,8 +159,7 @@ BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : pe
     std::unordered_set<std::string> seen;
     std::erase_if(unmatched_channels_, [&](const std::string& name) { return !seen.insert(name).second; });
     std::ranges::sort(driven_controls_);
-    const auto repeated = std::ranges::unique(driven_controls_);
-    driven_controls_.erase(repeated.begin(), repeated.end());
+    driven_controls_.erase(std::unique(driven_controls_.begin(), driven_controls_.end()), driven_controls_.end());
 
     if (driven_controls_.empty() || driven_controls_.front() < rig.target_count()) {
         std::vector<std::uint8_t> driven(rig.target_count(), 0);

@@ -146,6 +146,9 @@ private:
     }
 
     void wrinkles() {
+        if (description_.wrinkle_zones.size() > most_zones) {
+            return broken("wrinkles.zones", "there may be " + std::to_string(most_zones));
+        }
         std::set<std::string> names, rows;
         for (std::size_t z = 0; z < description_.wrinkle_zones.size(); ++z) {
             const WrinkleZone& zone = description_.wrinkle_zones[z];
@@ -174,6 +177,9 @@ private:
     }
 
     void hemoglobin() {
+        if (description_.hemoglobin_maps.size() > most_maps) {
+            return broken("hemoglobin.maps", "there may be " + std::to_string(most_maps));
+        }
         std::set<std::string> maps;
         for (const std::string& map : description_.hemoglobin_maps) {
             if (map.empty() || map == "neutral") broken("hemoglobin.maps", "a map may not be named '" + map + "'");

@@ -106,6 +106,9 @@ RigDescription default_description(const Face& face);
 /// Largest number that a drive, zone weight, share or factor may be.
 inline constexpr float largest_coefficient = 100;
 
+/// Far beyond what any shader samples; the search for a map by name may be plain.
+inline constexpr std::size_t most_zones = 64, most_maps = 256;
+
 /// Weights are limited to this on either side: far beyond any use, and small enough that no sum overflows.
 inline constexpr float largest_weight = 1000;
 

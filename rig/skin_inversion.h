@@ -16,12 +16,16 @@ struct SkinReading {
     float chroma_error = 0;  ///< distance between the two colours in density (below), shading apart; 0 in the gamut
 };
 
+/// Blue is what cameras and JPEG files (which halve its resolution) get least right, and light from the sky tints
+/// shadows; so it counts half.
+inline constexpr float yellowness_weight = 0.5F;
+
 /// Finds the point of the table nearest to a colour.
 ///
 /// Distances are taken in optical density, -ln of linear sRGB, where light that falls on a texel adds the same number
 /// to all three channels (Tsumura et al. 2003). Density is split into its mean (lightness), green less red (redness),
-/// and blue less the mean of both (yellowness). Lightness counts `lightness_weight` times as much as the other two: at
-/// 1 a shadow is read as pigment, at 0 all lightness is taken for shading and the chroma alone decides.
+/// and blue less the mean of both (yellowness). Redness counts fully, yellowness by yellowness_weight, lightness by
+/// `lightness_weight`: at 1 a shadow is read as pigment, at 0 all lightness is taken for shading and chroma decides.
 class SkinInverter {
 public:
     /// `white_linear`: the colour that a perfect white has in the picture (exposure and white balance), above 0.

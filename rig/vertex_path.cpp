@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 #include "rig/simd/kernels.h"
 
@@ -130,7 +131,7 @@ VertexPath::VertexPath(const Face& face, const PackOptions& options, SimdPath pa
 std::vector<VertexPath::Section> VertexPath::sections(NormalMethod method) const {
     std::vector<const Primitive*> order;
     for (const Primitive& primitive : face_.primitives) order.push_back(&primitive);
-    std::ranges::stable_sort(order, {}, &Primitive::first_vertex);
+    std::ranges::sort(order, {}, [](const Primitive* p) { return std::pair(p->first_vertex, p); });
     std::vector<Section> result;
     std::uint32_t next = 0;
     const auto append = [&](std::uint32_t last, Directions directions) {

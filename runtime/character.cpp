@@ -8,6 +8,7 @@
 #include "runtime/face_file.h"
 #include "runtime/frame.h"
 #include "runtime/gl/state_guard.h"
+#include "runtime/rig_description_file.h"
 
 namespace blush {
 namespace {
@@ -49,18 +50,26 @@ Character::~Character() = default;
 Result<Character> Character::load(const Device& device, const std::filesystem::path& path) {
     Result<Face> face = load_face(path);
     if (!face) return face.error();
+    const Result<RigDescription> description = find_rig_description(*face);
+    if (!description) return description.error();
     Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(path));
     if (!appearance) return appearance.error();
-    Result<Character> character = create(device, *std::move(face));
+    Result<Character> character = create(device, *std::move(face), *description);
     if (character) character->set_appearance(*std::move(appearance));
     return character;
 }
 
-Result<Character> Character::create(const Device& device, Face face) {
+Result<Character> Character::create(const Device& device, Face face, const std::optional<RigDescription>& description) {
     if (Status valid = validate(face); !valid) return valid.error();
+    if (description) {
+        if (Status good = check(*description, face); !good) {
+            return Error{face.path + ": its rig description: " + good.error().message};
+        }
+    }
+    Rig rig = description ? Rig(face, *description) : Rig(face);
     device.make_current();
     const gl::StateGuard guard;
-    auto state = std::make_unique<CharacterState>(device, std::move(face));
+    auto state = std::make_unique<CharacterState>(device, std::move(face), std::move(rig));
     Result<StreamOut> stream_out = StreamOut::create(device, state->face);
     if (!stream_out) return stream_out.error();
     state->stream_out.emplace(*std::move(stream_out));
@@ -96,6 +105,7 @@ void Character::set(ControlId control, float value) {
 
 std::span<float> Character::controls() { return state_->controls; }
 Pose& Character::pose() { return state_->pose; }
+void Character::follow_blood(const BloodFlow* blood) { state_->blood = blood; }
 
 Status Character::set(std::string_view setting, std::string_view choice) {
     return state_->settings.set(setting, choice);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "rig/blood_flow.h"
 #include "rig/face.h"
 #include "rig/result.h"
 #include "rig/rig.h"
@@ -23,10 +24,13 @@ struct CharacterState;
 
 class Character {
 public:
-    /// Loads a face file (runtime/face_file.h) onto the device.
+    /// Loads a face file (runtime/face_file.h) onto the device, with the rig description beside it where there is one
+    /// (runtime/rig_description_file.h).
     static Result<Character> load(const Device& device, const std::filesystem::path& path);
-    /// The same from a face in memory, which must satisfy validate().
-    static Result<Character> create(const Device& device, Face face);
+    /// The same from a face in memory, which must satisfy validate(), and a description, which must satisfy check();
+    /// without one, that of its target names.
+    static Result<Character> create(const Device& device, Face face,
+                                    const std::optional<RigDescription>& description = std::nullopt);
 
     Character(Character&&) noexcept;
     Character& operator=(Character&&) noexcept;
@@ -43,6 +47,10 @@ public:
     std::span<float> controls();
     /// The pose that node animations write to; its weights and angles come from the controls at the next draw.
     Pose& pose();
+
+    /// Lets slow blood (rig/blood_flow.h) say where the blood is instead of the pose; null: the pose again. It must
+    /// outlive its use here.
+    void follow_blood(const BloodFlow* blood);
 
     /// Status: no such effect, setting or choice.
     Status set(std::string_view setting, std::string_view choice);

@@ -1,6 +1,7 @@
 #pragma once
 /// What a Character holds: the inside that effects, passes and the frame share.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -8,8 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "rig/blood_flow.h"
 #include "rig/head_and_eyes.h"
 #include "rig/rig.h"
+#include "runtime/antialias/sampling.h"
 #include "runtime/device.h"
 #include "runtime/effect_settings.h"
 #include "runtime/face_appearance.h"
@@ -31,7 +34,11 @@ struct SceneFacts {
     bool any_turned_normals = false;          ///< some target of the face does
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
+    bool has_triangles = false;
     bool forced = false;
+    // Of temporal antialiasing; false in other modes.
+    bool has_last_frame = false;  ///< the last frame can be compared with this one
+    bool moves = false;           ///< ... and some point may stand elsewhere on the screen than in it
 };
 
 /// Resources of the frame that passes hand on to one another.
@@ -40,14 +47,25 @@ struct FrameResources {
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
     ResourceId blood_change{};  ///< what "blend blood" writes
-    ResourceId display{};  ///< the display image as far as it has come
-    ResourceId target{};   ///< the view's framebuffer
+    /// Multisampled images that shading writes and what they become, one sample a pixel: the scene's colour, and others
+    /// that are resolved with its weights.
+    struct Resolved {
+        ResourceId from{}, to{};
+    };
+    std::array<Resolved, 6> to_resolve{};
+    std::size_t resolve_count = 0;
+    ResourceId
+        velocities{};      ///< rgba16f: speed, velocity x and y, of the frame's last picture (effects/velocities.cpp)
+    ResourceId speeds{};   ///< speeds as far as they have come: filtered, averaged
+    ResourceId display{};  ///< the picture as far as it has come: display values, or radiance
+    ResourceId target{};   ///< what the picture goes to: the view's framebuffer, or a texture for averaging
 };
 
 struct Effect;
 
 struct CharacterState {
-    CharacterState(Device on, Face loaded) : device(std::move(on)), face(std::move(loaded)), rig(face) {}
+    CharacterState(Device on, Face loaded, Rig its)
+        : device(std::move(on)), face(std::move(loaded)), rig(std::move(its)) {}
     ~CharacterState() { device.make_current(); }  // the GL objects below must go in their own context
 
     Device device;
@@ -57,6 +75,7 @@ struct CharacterState {
     Bounds bounds;
     std::vector<float> controls;
     Pose pose;
+    const BloodFlow* blood = nullptr;  ///< where the blood is, when it does not follow the pose at once
     EffectSettings settings;
     FaceAppearance appearance;
 
@@ -76,9 +95,13 @@ struct CharacterState {
     SceneFacts facts;
     const SurfaceBuffers* surface = nullptr;  // the surface as far as it has come; in the end what is drawn
     const SurfaceBuffers* skin_source = nullptr;
+    Sampling sampling;          // of this frame
+    Camera camera;              // the view's, moved to where the picture being drawn is sampled
+    std::uint32_t picture = 0;  // the one being drawn, of sampling.pictures
     FrameGraph graph;
     FrameResources resources;
-    std::uint32_t display_effects_left = 0;  // of those that are on, how many have yet to declare themselves
+    std::uint32_t images_left = 0;  // steps after the scene that have yet to declare themselves
+    std::uint32_t kept_at = 0;      // the image with so many steps after it is kept for the next frame; 0: none
     std::vector<glm::mat4> world_from_node, skinned_from_mesh;
     gl::Program tone_program;
     gl::Framebuffer scene_framebuffer, resolved_framebuffer, output_framebuffer;

@@ -34,8 +34,12 @@ struct Setting {
 enum class Stage : std::uint8_t {
     surface,  ///< before anything is drawn: what moves the surface
     light,    ///< on the finished surface: what shading reads (shadow maps, velocities)
+    resolve,  ///< multisampled images become single ones
     scene,    ///< on the shaded image, in linear radiance: FrameResources::scene_color and its companions
-    display,  ///< on the display image, after the filmic curve: see next_display() in runtime/frame.h
+    filter,   ///< on each finished picture, display values or radiance: see next_display() in runtime/frame.h
+    average,  ///< of a frame's pictures, on each but the first
+    history,  ///< the frame before is blended in
+    display,  ///< on the display image, after the filmic curve; not of a view that asks for radiance
 };
 
 /// Answer of a predicate.
@@ -98,5 +102,7 @@ std::span<const Effect* const> effects();
 
 extern const Effect deformation_effect, normals_effect, skinning_effect;
 extern const Effect wrinkles_effect, blood_effect;
+extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
+    antialiasing_effect, supersampling_effect, reprojection_effect;
 
 }  // namespace blush

@@ -70,7 +70,7 @@ std::optional<NotFinite> FiniteCheck::scan_texture(const FrameResource& resource
         // The average of samples with one bad among them is bad.
         TextureShape single = shape;
         single.samples = 1;
-        if (resolved_shape_ != single) {
+        if (!resolved_ || resolved_shape_ != single) {
             resolved_ = gl::make_texture(GL_TEXTURE_2D);
             glTextureStorage2D(resolved_.name(), 1, gl::internal_format(shape.format), width, height);
             resolved_shape_ = single;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "runtime/antialias/last_frame.h"
+#include "runtime/antialias/pictures.h"
 #include "runtime/effect.h"
 
 namespace blush {
@@ -13,6 +15,8 @@ void find_facts(CharacterState& state, const View& view) {
     state.facts = {};
     state.facts.active_targets = static_cast<std::uint32_t>(state.active.size());
     state.facts.has_joints = !state.face.joints.empty();
+    state.facts.has_triangles = std::ranges::any_of(
+        state.face.primitives, [](const Primitive& primitive) { return primitive.index_count >= 3; });
     state.facts.forced = view.force_effects;
 
     const NormalMethod method =
@@ -36,11 +40,11 @@ void remember_deformation(CharacterState& state) {
     state.deformed_valid = true;
 }
 
-/// What the surface passes start from.
-void begin_surface(CharacterState& state) {
-    state.surface = &state.morphed();
-    const SurfaceBuffers& surface = *state.surface;
+/// What the surface passes start from, or what they have left for a further picture of the same frame.
+void import_surface(CharacterState& state, const SurfaceBuffers& surface) {
     const auto count = static_cast<std::uint32_t>(state.face.positions.size());
+    state.surface = &surface;
+    state.resources = {};
     state.resources.positions = state.graph.import_buffer("surface positions", surface.positions.name(), 3, count);
     state.resources.normals = state.graph.import_buffer("surface normals", surface.normals.name(), 3, count);
     state.resources.tangents = state.graph.import_buffer("surface tangents", surface.tangents.name(), 4, count);
@@ -49,14 +53,31 @@ void begin_surface(CharacterState& state) {
     state.resources.morphed_tangents = state.resources.tangents;
 }
 
-ResourceId display_texture(CharacterState& state) {
-    return state.graph.texture("display", {PixelFormat::rgba8, state.view->width, state.view->height, 1});
+TextureShape picture_shape(const View& view) { return {picture_format(view.output), view.width, view.height, 1}; }
+
+/// The image that has `left` steps after it.
+ResourceId image(CharacterState& state, std::uint32_t left) {
+    if (left == 0) return state.resources.target;
+    const TextureShape shape = picture_shape(*state.view);
+    if (left != state.kept_at) return state.graph.texture("display", shape);
+    return state.graph.import_texture("kept image", kept_image(state, shape).color.name(), shape);
+}
+
+/// Counts the steps that the picture takes from the scene to its target, each of which calls next_display() once.
+void count_images(CharacterState& state, const View& view, bool last_picture) {
+    const auto on = [&](Stage stage) {
+        return static_cast<std::uint32_t>(std::ranges::count_if(
+            effects(), [&](const Effect* effect) { return effect->stage == stage && state.on(*effect); }));
+    };
+    const bool keeps = last_picture && state.sampling.temporal;
+    const std::uint32_t display_steps = last_picture && view.output == Output::display_srgb ? on(Stage::display) : 0;
+    state.kept_at = keeps ? 1 + display_steps : 0;
+    state.images_left =
+        on(Stage::filter) + (state.picture > 0 ? on(Stage::average) : 0) + (keeps ? 1 : 0) + display_steps;
 }
 
 void run(CharacterState& state, const View& view) {
     state.graph.compile();
-    state.report.passes.clear();
-    state.report.not_finite.reset();
     state.timers.clear();
     const auto before = [&state, &view](const FrameGraph&, const FramePass&) {
         if (view.timed) state.timers.start();
@@ -80,24 +101,24 @@ void run(CharacterState& state, const View& view) {
 void begin_frame(CharacterState& state, const View& view) {
     state.view = &view;
     state.rig.evaluate(state.controls, state.pose);
+    if (state.blood) state.blood->apply(state.pose);
     find_facts(state, view);
     world_from_nodes(state.face, state.pose, state.head_and_eyes, state.world_from_node);
     skinned_from_meshes(state.face, state.world_from_node, state.skinned_from_mesh);
     state.report.active = state.active;
     state.report.deltas_added = 0;
     state.report.triangles_drawn = 0;
-    state.graph.clear();
+    state.report.passes.clear();
+    state.report.not_finite.reset();
 }
 
 void find_needs(CharacterState& state) {
     state.report.effects.clear();
-    state.display_effects_left = 0;
     for (const Effect* effect : effects()) {
         const Need need = effect->need(state);
         const bool on = need.on || (state.facts.forced && need.can_be_forced);
         const std::string_view reason = on && !need.on ? "forced on" : need.reason;
         state.report.effects.push_back({effect->name, on, reason, need.omission, need.bound, need.bound_unit});
-        if (on && effect->stage == Stage::display) ++state.display_effects_left;
     }
 }
 
@@ -113,10 +134,9 @@ void declare_stage(CharacterState& state, Stage stage) {
 }
 
 DisplayImages next_display(CharacterState& state) {
-    assert(state.display_effects_left > 0 && "next_display() is for effects of the display stage, once each");
+    assert(state.images_left > 0 && "next_display() is for the steps that count_images() counts, once each");
     const ResourceId from = state.resources.display;
-    const bool last = --state.display_effects_left == 0;
-    state.resources.display = last ? state.resources.target : display_texture(state);
+    state.resources.display = image(state, --state.images_left);
     return {from, state.resources.display};
 }
 
@@ -131,45 +151,100 @@ void bind_output(CharacterState& state, const FrameGraph& graph, ResourceId imag
     glViewport(0, 0, static_cast<GLsizei>(resource.shape.width), static_cast<GLsizei>(resource.shape.height));
 }
 
-void draw_frame(CharacterState& state, const View& view) {
-    begin_frame(state, view);
-    begin_surface(state);
-    find_needs(state);
-    declare_stage(state, Stage::surface);
+void draw_screen(const CharacterState& state) {
+    glBindVertexArray(state.no_attributes.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+namespace {
+
+/// An image that shading writes, and the one that it is resolved to: the same one where `shape` has one sample.
+ResourceId shaded_image(CharacterState& state, std::string_view multisampled, std::string_view single,
+                        TextureShape shape) {
+    const ResourceId from = state.graph.texture(multisampled, shape);
+    ResourceId to = from;
+    if (shape.samples > 1) {
+        shape.samples = 1;
+        to = state.graph.texture(single, shape);
+    }
+    state.resources.to_resolve[state.resources.resolve_count++] = {from, to};
+    return to;
+}
+
+void declare_picture(CharacterState& state, const View& view) {
+    const bool last_picture = state.picture + 1 == state.sampling.pictures;
+    const std::uint32_t phase = state.own<LastFrame>().phase;
+    state.camera =
+        jittered(view.camera, state.sampling.sample_offset_pixels(state.picture, phase), view.width, view.height);
+    if (state.picture == 0) {
+        import_surface(state, state.morphed());
+        declare_stage(state, Stage::surface);
+    } else {
+        import_surface(state, *state.surface);
+    }
     declare_stage(state, Stage::light);
 
-    const auto samples = static_cast<std::uint32_t>(
-        std::clamp(static_cast<int>(view.samples), 1, std::max(1, state.device.info().largest_sample_count)));
-    TextureShape color{PixelFormat::rgba16f, view.width, view.height, samples};
+    const TextureShape color{PixelFormat::rgba16f, view.width, view.height, state.sampling.samples};
     TextureShape depth = color;
     depth.format = PixelFormat::depth32f;
-    state.resources.scene_color_multisampled = state.graph.texture("scene colour, multisampled", color);
+    state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
+    state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
     state.resources.scene_depth = state.graph.texture("scene depth", depth);
-    color.samples = 1;
-    state.resources.scene_color =
-        samples > 1 ? state.graph.texture("scene colour", color) : state.resources.scene_color_multisampled;
-    state.resources.target = state.graph.import_framebuffer("view", view.framebuffer, color);
+    state.resources.target = last_picture
+                                 ? state.graph.import_framebuffer("view", view.framebuffer, picture_shape(view))
+                                 : picture_store(state, picture_shape(view), state.graph);
+    count_images(state, view, last_picture);
 
     declare_shade(state);
-    if (samples > 1) declare_resolve(state);
+    declare_stage(state, Stage::resolve);
     declare_stage(state, Stage::scene);
+    state.resources.display = image(state, state.images_left);
     if (view.output == Output::display_srgb) {
-        state.resources.display = state.display_effects_left == 0 ? state.resources.target : display_texture(state);
-        declare_tone(state);
-        declare_stage(state, Stage::display);
+        declare_tone(state, state.resources.display);
+    } else if (state.images_left == 0 || state.images_left == state.kept_at) {
+        declare_copy(state, state.resources.scene_color, state.resources.display);
     } else {
-        declare_copy(state);
+        state.resources.display = state.resources.scene_color;
+    }
+    declare_stage(state, Stage::filter);
+    if (state.picture > 0) declare_stage(state, Stage::average);
+    if (last_picture) {
+        declare_stage(state, Stage::history);
+        if (state.sampling.temporal && !state.on(reprojection_effect)) {
+            const DisplayImages images = next_display(state);
+            declare_copy(state, images.from, images.to);
+        }
+        if (view.output == Output::display_srgb) declare_stage(state, Stage::display);
     }
     state.graph.present(state.resources.target);
-    run(state, view);
+}
+
+}  // namespace
+
+void draw_frame(CharacterState& state, const View& view) {
+    begin_frame(state, view);
+    const auto largest = static_cast<std::uint32_t>(std::max(1, state.device.info().largest_sample_count));
+    state.sampling = find_sampling(state.settings, view, largest, state.facts.has_triangles);
+    find_last_frame(state, view);
+    state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
+    find_needs(state);
+    begin_pictures(state);
+    for (state.picture = 0; state.picture < state.sampling.pictures; ++state.picture) {
+        state.graph.clear();
+        declare_picture(state, view);
+        run(state, view);
+    }
     remember_deformation(state);
+    keep_for_next_frame(state, view);
 }
 
 void deform_only(CharacterState& state) {
     static const View no_view;
     begin_frame(state, no_view);
-    begin_surface(state);
+    state.sampling = {};
+    state.graph.clear();
     find_needs(state);
+    import_surface(state, state.morphed());
     declare_stage(state, Stage::surface);
     state.graph.present(state.resources.morphed_positions);
     state.graph.present(state.resources.morphed_normals);

@@ -21,8 +21,9 @@ void draw_frame(CharacterState& state, const View& view);
 /// Runs the effects alone and leaves the deformed surface in its buffers.
 void deform_only(CharacterState& state);
 
-/// The image that the display stage has come to, and the one that the calling effect writes: for the last effect of the
-/// stage the view's own framebuffer, else a transient 8-bit texture. Call once for each effect that declares itself.
+/// The picture as far as it has come, and the image that the calling step writes: for the last step the view's own
+/// framebuffer, else a texture of picture_format(). Call once for each effect of the stages after `scene` that declares
+/// itself.
 struct DisplayImages {
     ResourceId from{}, to{};
 };
@@ -32,10 +33,12 @@ DisplayImages next_display(CharacterState& state);
 /// the viewport of its size.
 void bind_output(CharacterState& state, const FrameGraph& graph, ResourceId image);
 
+/// One triangle over the whole of what is bound, with the program in use.
+void draw_screen(const CharacterState& state);
+
 /// Passes that every frame has, in passes/.
 void declare_shade(CharacterState& state);
-void declare_resolve(CharacterState& state);
-void declare_tone(CharacterState& state);
-void declare_copy(CharacterState& state);
+void declare_tone(CharacterState& state, ResourceId to);
+void declare_copy(CharacterState& state, ResourceId from, ResourceId to);
 
 }  // namespace blush

@@ -21,6 +21,11 @@ ResourceId FrameGraph::texture(std::string_view name, const TextureShape& shape)
     return add_resource({.name = name, .kind = ResourceKind::texture, .shape = shape});
 }
 
+ResourceId FrameGraph::import_texture(std::string_view name, std::uint32_t handle, const TextureShape& shape) {
+    return add_resource(
+        {.name = name, .kind = ResourceKind::texture, .shape = shape, .handle = handle, .imported = true});
+}
+
 ResourceId FrameGraph::import_buffer(std::string_view name, std::uint32_t handle, std::uint32_t components,
                                      std::uint32_t count) {
     return add_resource({.name = name,
@@ -28,11 +33,13 @@ ResourceId FrameGraph::import_buffer(std::string_view name, std::uint32_t handle
                          .shape = {},
                          .components = components,
                          .count = count,
-                         .handle = handle});
+                         .handle = handle,
+                         .imported = true});
 }
 
 ResourceId FrameGraph::import_framebuffer(std::string_view name, std::uint32_t handle, const TextureShape& shape) {
-    return add_resource({.name = name, .kind = ResourceKind::framebuffer, .shape = shape, .handle = handle});
+    return add_resource(
+        {.name = name, .kind = ResourceKind::framebuffer, .shape = shape, .handle = handle, .imported = true});
 }
 
 void FrameGraph::add_pass(std::string_view name, std::function<void(const FrameGraph&)> run) {
@@ -89,7 +96,7 @@ void FrameGraph::execute(TextureSource& textures, const Observer& before, const 
         const FramePass& pass = passes_[index];
         if (!pass.live) continue;
         for (FrameResource& resource : resources_) {
-            if (resource.kind == ResourceKind::texture && resource.first_use == static_cast<std::int32_t>(index)) {
+            if (!resource.imported && resource.first_use == static_cast<std::int32_t>(index)) {
                 resource.handle = textures.acquire(resource.shape);
             }
         }
@@ -97,7 +104,7 @@ void FrameGraph::execute(TextureSource& textures, const Observer& before, const 
         pass.run(*this);
         if (after) after(*this, pass);
         for (FrameResource& resource : resources_) {
-            if (resource.kind == ResourceKind::texture && resource.last_use == static_cast<std::int32_t>(index)) {
+            if (!resource.imported && resource.last_use == static_cast<std::int32_t>(index)) {
                 textures.release(resource.handle, resource.shape);
             }
         }

@@ -36,7 +36,7 @@ struct TextureShape {
 
 /// What a resource is, as far as a check of its contents needs to know.
 enum class ResourceKind : std::uint8_t {
-    texture,       ///< transient, made by the TextureSource
+    texture,       ///< transient, made by the TextureSource; or imported
     float_buffer,  ///< imported: an array of vertices of `components` floats
     framebuffer,   ///< imported: what is presented to
 };
@@ -49,7 +49,8 @@ struct FrameResource {
     TextureShape shape;            ///< of a texture or a framebuffer
     std::uint32_t components = 0;  ///< of a float buffer
     std::uint32_t count = 0;       ///< vertices of a float buffer
-    std::uint32_t handle = 0;      ///< name of the object in its API; of a texture only while the resource is alive
+    std::uint32_t handle = 0;      ///< name of the object in its API; of a transient texture only while it is alive
+    bool imported = false;         ///< lives longer than the frame
     std::int32_t first_use = -1, last_use = -1;  ///< live passes, by index; -1: never alive
 };
 
@@ -77,6 +78,8 @@ public:
 
     /// All names are kept as views: pass literals, or strings that outlive the frame.
     ResourceId texture(std::string_view name, const TextureShape& shape);
+    /// A texture of the caller's, which outlives the frame.
+    ResourceId import_texture(std::string_view name, std::uint32_t handle, const TextureShape& shape);
     ResourceId import_buffer(std::string_view name, std::uint32_t handle, std::uint32_t components,
                              std::uint32_t count);
     ResourceId import_framebuffer(std::string_view name, std::uint32_t handle, const TextureShape& shape);

@@ -48,6 +48,7 @@ struct FrameReport {
     std::uint64_t deltas_added = 0;     ///< target deltas that the deformation added up in this frame
     std::uint32_t triangles_drawn = 0;  ///< by all passes
     std::optional<NotFinite> not_finite;
+    bool incomplete = false;  ///< a temporal mode had no last frame: the next frame of the same scene has all samples
 };
 
 }  // namespace blush

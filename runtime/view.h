@@ -10,6 +10,8 @@ namespace blush {
 struct Camera {
     glm::mat4 view_from_world{1};
     glm::mat4 clip_from_view{1};
+
+    bool operator==(const Camera&) const = default;
 };
 
 enum class Output : std::uint8_t {
@@ -22,8 +24,12 @@ struct View {
     std::uint32_t width = 0, height = 0;  ///< pixels, of the framebuffer
     std::uint32_t framebuffer = 0;        ///< GL name; 0: the default framebuffer
     Output output = Output::display_srgb;
-    float exposure = 1;         ///< factor on radiance before the filmic curve
-    std::uint32_t samples = 4;  ///< of multisampling; clamped to what the device has
+    float exposure = 1;  ///< factor on radiance before the filmic curve
+    /// Of multisampling, where the setting antialiasing.mode leaves it to the view; clamped to what the device has.
+    std::uint32_t samples = 4;
+    /// Nothing of the frame before may show: the first frame after a cut, a seek or a jump of the camera. (A view of
+    /// another size is a cut by itself.)
+    bool cut = false;
     glm::vec4 background_linear{0.035F, 0.037F, 0.042F, 1};
     bool timed = false;          ///< measure each pass (FrameReport::passes)
     bool check_finite = false;   ///< scan what each pass wrote (slow: reads it back)

@@ -19,15 +19,13 @@ vec3 srgb_from_linear(vec3 c) {
 }
 
 float finite(float x) { return isnan(x) ? 0.0 : isinf(x) ? (x > 0.0 ? 65504.0 : -65504.0) : x; }
-vec4 texel_at(ivec2 p) {
-    vec4 c = texelFetch(color, clamp(p, ivec2(0), textureSize(color, 0) - 1), 0);
-    return vec4(finite(c.r), finite(c.g), finite(c.b), finite(c.a));
-}
+vec4 texel_at(ivec2 p) { return texelFetch(color, clamp(p, ivec2(0), textureSize(color, 0) - 1), 0); }
 vec4 weights_at(ivec2 p) {
     return all(lessThan(p, textureSize(weights, 0))) ? texelFetch(weights, p, 0) : vec4(0.0);
 }
 
 vec4 light_of(vec4 c) {
+    c = vec4(finite(c.r), finite(c.g), finite(c.b), finite(c.a));
 #ifdef DECODE_SRGB
     c.rgb = linear_from_srgb(c.rgb);
 #endif

@@ -79,6 +79,5 @@ void main() {
     float top_of_top = contrast(top, signal(p - ivec2(0, 2)));
     bvec2 found = bvec2(is_edge(to_left, threshold_between(p, p - ivec2(1, 0)), max(around, left_of_left)),
                         is_edge(to_top, threshold_between(p, p - ivec2(0, 1)), max(around, top_of_top)));
-    if (!any(found)) discard;  // the target was cleared
     edges = vec2(found);
 }

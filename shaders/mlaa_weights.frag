@@ -27,7 +27,6 @@ vec2 line_weights(ivec2 p, bool transposed) {
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     vec2 here = texelFetch(edges, p, 0).rg;
-    if (here == vec2(0.0)) discard;  // the target was cleared
     weights = vec4(0.0);
     if (here.g > 0.0) weights.rg = line_weights(p, false);
     if (here.r > 0.0) weights.ba = line_weights(p, true);

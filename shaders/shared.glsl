@@ -48,6 +48,7 @@
 #define BLUSH_UV1_ATTRIBUTE 4
 #define BLUSH_JOINTS_ATTRIBUTE 5
 #define BLUSH_JOINT_WEIGHTS_ATTRIBUTE 6
+#define BLUSH_LAST_POSITION_ATTRIBUTE 7
 
 // Texture units.
 #define BLUSH_BASE_COLOR_UNIT 0
@@ -70,6 +71,11 @@
 #define BLUSH_AA_DIAGONAL_AREAS_UNIT 2
 #define BLUSH_AA_SEARCH_UNIT 3
 #define BLUSH_AA_WEIGHTS_UNIT 1
+
+// Storage block of the antialiasing passes: tiles with edges, and their side. Small tiles follow a contour closely,
+// large ones are fewer to draw: 16 took longer than 8 on llvmpipe (bench_antialias).
+#define BLUSH_AA_TILES_BINDING 0
+#define BLUSH_AA_TILE_PIXELS 8
 
 // Layout of the antialiasing tables; runtime/antialias/ holds them to rig/antialias/.
 #define BLUSH_ORTHOGONAL_DISTANCES 64

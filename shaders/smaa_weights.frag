@@ -133,7 +133,6 @@ bool diagonal_weights(View view, View mirrored, bool swap_mirrored, out vec2 are
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     vec2 here = texelFetch(edges, p, 0).rg;
-    if (here == vec2(0.0)) discard;  // the target was cleared
     weights = vec4(0.0);
     if (here.g > 0.0) {
 #ifdef DIAGONALS

@@ -1,5 +1,6 @@
 // From linear radiance to display: exposure, the filmic curve and the sRGB transfer function.
 #include "shared.glsl"
+#include "srgb.glsl"
 
 in vec2 screen_uv;
 layout(binding = BLUSH_SCENE_COLOR_UNIT) uniform sampler2D scene_color;
@@ -15,12 +16,6 @@ vec3 filmic(vec3 x) {
 const float white = 11.2;
 // Hable's exposure bias: the curve is darker than linear by about this in the middle greys.
 const float exposure_bias = 2.0;
-
-// IEC 61966-2-1.
-vec3 srgb_from_linear(vec3 c) {
-    c = clamp(c, 0.0, 1.0);
-    return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
-}
 
 void main() {
     vec4 scene = texelFetch(scene_color, ivec2(gl_FragCoord.xy), 0);

@@ -69,7 +69,7 @@ Pixels blend_neighbors(const Pixels& picture, const WeightMap& weights, const Pi
             for (const Side& side : sides) sum += side.weight;
             const glm::vec4& texel = picture.at(x, y);
             if (sum == 0) {
-                for (glm::length_t i = 0; i < 4; ++i) out.at(x, y)[i] = static_cast<float>(finite(texel[i]));
+                out.at(x, y) = texel;
                 continue;
             }
             // (9.1) for each neighbour; a pixel of several lines takes their mean, weighted by their areas

@@ -6,7 +6,8 @@
 
 namespace blush {
 
-/// Pixels without weights keep their bits, but NaN becomes 0 and infinities the largest half float (65504).
+/// Pixels without weights keep their bits. What is mixed is finite: NaN counts as 0, infinities as the largest half
+/// float (65504).
 Pixels blend_neighbors(const Pixels& picture, const WeightMap& weights, const PictureMeaning& meaning);
 
 /// All three passes on one picture.

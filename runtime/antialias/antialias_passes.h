@@ -2,16 +2,21 @@
 /// The filters of rig/antialias/ as passes on the GPU. Each function is one pass: it binds what it needs, draws over
 /// the whole target and leaves the rest to the caller, so that each can be a pass of a frame graph.
 ///
+/// The passes behind the first are drawn over the tiles with edges that it listed. On llvmpipe, where a shader's
+/// branches save nothing, that makes SMAA 1x of a picture without edges cost little more than the edge pass
+/// (bench_antialias).
+///
 /// "Up" is towards row 0 of the textures, whichever way the picture stands in them; offsets of subsamples count rows
 /// the same way. Textures may have any size and filter: samplers are the passes' own. The state that passes expect is
-/// that of gl::StateGuard; units 0 to 3, the program, the vertex array, the draw framebuffer and the viewport are
-/// changed.
+/// that of gl::StateGuard; units 0 to 3, storage binding 0, the program, the vertex array, the draw framebuffer and the
+/// viewport are changed.
 
 #include <array>
 #include <cstdint>
 
 #include "rig/antialias/settings.h"
 #include "rig/result.h"
+#include "runtime/antialias/edge_tiles.h"
 #include "runtime/gl/object.h"
 #include "runtime/gl/program.h"
 
@@ -31,27 +36,31 @@ public:
     /// Edges of `color` into a target of two channels (GL_RG8). depth: a depth or one-channel texture of the same size;
     /// 0 unless the settings ask for one. Both are single-sampled.
     void edges(GLuint color, GLuint depth, const EdgeSettings& settings, const PictureMeaning& meaning,
-               const PassTarget& target) const;
+               EdgeTiles& tiles, const PassTarget& target) const;
 
-    /// Weights of edges into a target of four channels (GL_RGBA8).
-    void smaa_weights(GLuint edges, const SmaaSettings& settings, SubsampleSlices slices,
+    /// Weights of edges, and of the tiles found with them, into a target of four channels (GL_RGBA8).
+    void smaa_weights(GLuint edges, const SmaaSettings& settings, SubsampleSlices slices, const EdgeTiles& tiles,
                       const PassTarget& target) const;
-    void mlaa_weights(GLuint edges, const MlaaSettings& settings, const PassTarget& target) const;
+    void mlaa_weights(GLuint edges, const MlaaSettings& settings, const EdgeTiles& tiles,
+                      const PassTarget& target) const;
 
     /// The picture, smoothed by weights, into a target that `color` is not attached to.
-    void blend(GLuint color, GLuint weights, const PictureMeaning& meaning, const PassTarget& target) const;
+    void blend(GLuint color, GLuint weights, const PictureMeaning& meaning, const EdgeTiles& tiles,
+               const PassTarget& target) const;
 
 private:
     AntialiasPasses() = default;
     void draw(const gl::Program& program, const PassTarget& target) const;
+    void draw_tiles(const gl::Program& program, const EdgeTiles& tiles, const PassTarget& target) const;
 
     std::array<std::array<gl::Program, 2>, 3> edges_;  // [EdgeSource][predicated]
     std::array<gl::Program, 2> smaa_weights_;          // [with diagonals]
-    gl::Program mlaa_weights_;
+    gl::Program mlaa_weights_, list_tiles_;
     std::array<std::array<gl::Program, 2>, 2> blend_;  // [decodes sRGB][straight alpha]
     gl::Texture orthogonal_areas_, diagonal_areas_, search_, mlaa_areas_;
     gl::Sampler nearest_, bilinear_with_border_;
     gl::VertexArray no_attributes_;
+    gl::Framebuffer source_;  // what the blend pass copies from
 };
 
 }  // namespace blush

@@ -5,7 +5,9 @@
 namespace blush {
 
 std::span<const Effect* const> effects() {
-    static const std::array<const Effect*, 3> all = {&deformation_effect, &normals_effect, &skinning_effect};
+    static const std::array<const Effect*, 8> all = {&deformation_effect,   &normals_effect,       &skinning_effect,
+                                                     &velocities_effect,    &multisampling_effect, &antialiasing_effect,
+                                                     &supersampling_effect, &reprojection_effect};
     return all;
 }
 

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <set>
 #include <vector>
@@ -143,7 +145,11 @@ Result<Program> make_program(const ProgramSource& source) {
         glDeleteShader(*shader);  // deleted with the program
         return Done{};
     };
-    if (Status vertex = attach(GL_VERTEX_SHADER, source.vertex); !vertex) return vertex.error();
+    const bool computes = !source.compute.empty();
+    const std::string_view first = computes ? source.compute : source.vertex;
+    if (Status attached = attach(computes ? GL_COMPUTE_SHADER : GL_VERTEX_SHADER, first); !attached) {
+        return attached.error();
+    }
     if (!source.fragment.empty()) {
         if (Status fragment = attach(GL_FRAGMENT_SHADER, source.fragment); !fragment) return fragment.error();
     }
@@ -157,10 +163,20 @@ Result<Program> make_program(const ProgramSource& source) {
     if (ok != GL_TRUE) {
         std::array<char, 4096> log{};
         glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-        return Error{"program of " + std::string(source.vertex) + " does not link: " + log.data()};
+        return Error{"program of " + std::string(first) + " does not link: " + log.data()};
     }
-    if (Status blocks = check_blocks(program.name(), source.vertex); !blocks) return blocks.error();
+    if (Status blocks = check_blocks(program.name(), first); !blocks) return blocks.error();
     return program;
+}
+
+void require_program(Program& program, const ProgramSource& source) {
+    if (program) return;
+    Result<Program> made = make_program(source);
+    if (!made) {
+        std::fprintf(stderr, "blush: %s\n", made.error().message.c_str());
+        std::abort();
+    }
+    program = *std::move(made);
 }
 
 }  // namespace blush::gl

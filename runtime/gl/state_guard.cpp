@@ -60,6 +60,7 @@ StateGuard::StateGuard() {
     for (GLuint unit = 0; unit < texture_units; ++unit) {
         glActiveTexture(GL_TEXTURE0 + unit);
         textures_[unit] = integer(GL_TEXTURE_BINDING_2D);
+        multisampled_textures_[unit] = integer(GL_TEXTURE_BINDING_2D_MULTISAMPLE);
         samplers_[unit] = integer(GL_SAMPLER_BINDING);
     }
     glActiveTexture(enum_of(active_unit_));
@@ -131,6 +132,7 @@ StateGuard::~StateGuard() {
     for (GLuint unit = 0; unit < texture_units; ++unit) {
         glActiveTexture(GL_TEXTURE0 + unit);  // glBindTextureUnit with 0 would clear the unit's other targets too
         glBindTexture(GL_TEXTURE_2D, name_of(textures_[unit]));
+        glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, name_of(multisampled_textures_[unit]));
         glBindSampler(unit, name_of(samplers_[unit]));
     }
     glActiveTexture(enum_of(active_unit_));

@@ -47,7 +47,7 @@ std::string one_line(std::string text) {
 bool is_ktx2(ByteView encoded) { return starts_with(encoded, "\xABKTX 20\xBB"); }
 
 Image decode_image(ByteView encoded, std::uint32_t side_limit_pixels, std::uint64_t& pixel_bytes_left,
-                   const std::string& place) {
+                   const std::string& place, StoredAs* stored) {
     const std::string format = format_of(encoded);
     if (format.empty()) refuse(place, "the image is not PNG, JPEG, WebP, HDR or EXR");
     if (format == "png") check_png(encoded, place);
@@ -66,6 +66,9 @@ Image decode_image(ByteView encoded, std::uint32_t side_limit_pixels, std::uint6
     if (width > side_limit_pixels || height > side_limit_pixels) {
         refuse(place, "the image is " + std::to_string(width) + "x" + std::to_string(height) +
                           " pixels; a side may have " + std::to_string(side_limit_pixels));
+    }
+    if (stored != nullptr) {
+        *stored = {format, static_cast<int>(8 * spec.format.basesize()), spec.format.is_floating_point()};
     }
     const bool is_8_bit = spec.format == OIIO::TypeDesc::UINT8;
     const int channels = std::min(spec.nchannels, 4);

@@ -120,6 +120,51 @@ PackedImage iris_image() {
     return {"iris", "image/png", encode_png(side, side, 3, pixels)};
 }
 
+/// Black, with the strands of the lash cards in alpha. Each of six cards is a band of v, 0.14 high, the root at its
+/// greater v (OBJ's, growing upward); the cards of both eyes share the bands, one a half of u.
+PackedImage lash_image() {
+    constexpr std::uint32_t side = 1024;
+    struct Card {
+        double root_v;
+        std::uint32_t strands;
+        double length;
+    };
+    // Upper lashes number about three times the lower ones and are twice as long (Na et al. 2006).
+    constexpr Card cards[] = {{0.988, 44, 1},    {0.822, 44, 0.95}, {0.656, 44, 0.9},
+                              {0.486, 20, 0.55}, {0.320, 20, 0.5},  {0.154, 20, 0.45}};
+    constexpr double card_height = 0.14;
+    Bytes pixels(std::size_t{4} * side * side, 0);
+    for (std::uint32_t y = 0; y < side; ++y) {
+        const double v = 1 - (y + 0.5) / side;
+        const auto card =
+            std::ranges::find_if(cards, [&](const Card& c) { return v <= c.root_v && v > c.root_v - card_height; });
+        if (card == std::end(cards)) continue;
+        const double along = (card->root_v - v) / card_height;
+        const auto number = static_cast<std::uint32_t>(card - std::begin(cards));
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const double u = (x + 0.5) / side, across = (u - std::floor(2 * u) / 2) * 2;
+            double alpha = 0;
+            // A strand leans, so that it may come from a neighbouring cell.
+            const double cell = across * card->strands;
+            for (int step = -2; step <= 2; ++step) {
+                const double index = std::floor(cell) + step;
+                if (index < 0 || index >= card->strands) continue;
+                const std::uint32_t seed =
+                    977 * number + 7919 * static_cast<std::uint32_t>(2 * u) + static_cast<std::uint32_t>(index);
+                const double length = card->length * (0.7 + 0.3 * hashed(seed));
+                if (along > length) continue;
+                const double t = along / length;
+                const double lean = 1.6 * (hashed(seed + 31337) - 0.5) * t * t;
+                const double from_axis = std::abs(cell - (index + 0.3 + 0.4 * hashed(seed + 4242) + lean));
+                const double half_width = 0.02 + 0.16 * (1 - t);
+                alpha = std::max(alpha, 1 - glm::smoothstep(0.6, 1.4, from_axis / half_width));
+            }
+            pixels[4 * (std::size_t{y} * side + x) + 3] = static_cast<std::uint8_t>(alpha * 255);
+        }
+    }
+    return {"lashes", "image/png", encode_png(side, side, 4, pixels)};
+}
+
 struct Look {
     std::string_view source;  ///< usemtl
     std::string_view material, mesh;
@@ -132,7 +177,7 @@ struct Look {
 constexpr Look looks[] = {
     {"M_Face", "skin", "head", {0.58F, 0.36F, 0.27F, 1}, 0.45F},
     {"M_BackHead", "skinBack", "head", {0.58F, 0.36F, 0.27F, 1}, 0.5F},
-    {"M_GumsTongue", "gums", "mouth", {0.42F, 0.12F, 0.11F, 1}, 0.35F},
+    {"M_GumsTongue", "gums", "mouth", {0.28F, 0.075F, 0.07F, 1}, 0.35F},
     {"M_Teeth", "teeth", "mouth", {0.76F, 0.69F, 0.58F, 1}, 0.25F},
     {"M_ScleraLeft", "sclera", "eyeballLeft", {0.72F, 0.68F, 0.64F, 1}, 0.15F},
     {"M_IrisLeft", "iris", "eyeballLeft", {1, 1, 1, 1}, 0.4F},
@@ -143,7 +188,7 @@ constexpr Look looks[] = {
     // Shells over the eye that soften its border to the lids.
     {"M_EyeBlend", "eyeBlend", "eyeRims", {0.30F, 0.12F, 0.10F, 0.25F}, 0.5F, true},
     {"M_EyeOcclusion", "eyeOcclusion", "eyeRims", {0.03F, 0.012F, 0.01F, 0.3F}, 0.8F, true},
-    {"M_EyeLashes", "lashes", "lashes", {0.012F, 0.008F, 0.006F, 1}, 0.6F},
+    {"M_EyeLashes", "lashes", "lashes", {1, 1, 1, 1}, 0.9F, true},
 };
 
 std::int32_t add_material(const Look& look, Face& face) {
@@ -155,10 +200,10 @@ std::int32_t add_material(const Look& look, Face& face) {
     material.roughness = look.roughness;
     material.base_color_linear = look.base_color_linear;
     if (look.see_through) material.alpha_mode = AlphaMode::blend;
-    if (look.material == "lashes") material.double_sided = true;
-    if (look.material == "iris") {
-        material.base_color_srgb.image = 0;
-        material.base_color_srgb.repeat_u = material.base_color_srgb.repeat_v = false;
+    if (look.material == "iris") material.base_color_srgb.image = 0;
+    if (look.material == "lashes") {
+        material.double_sided = true;
+        material.base_color_srgb.image = 1;
     }
     return static_cast<std::int32_t>(face.materials.size() - 1);
 }
@@ -225,8 +270,8 @@ Result<ImportedHead> import_ict(const std::filesystem::path& folder_or_archive) 
         root.name = "ictFaceKit";
         root.rest.scale = glm::vec3(metres_from_centimetres);
         add_meshes(surface, head, notes);
-        const PackedImage iris = iris_image();
-        return write_head(std::move(head.face), {&iris, 1}, std::move(notes));
+        const PackedImage images[] = {iris_image(), lash_image()};
+        return write_head(std::move(head.face), images, std::move(notes));
     });
 }
 

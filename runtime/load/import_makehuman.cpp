@@ -143,19 +143,19 @@ glm::dvec3 joint(const Polygons& base, std::string_view name) {
     return 0.5 * (low + high);
 }
 
-/// Polygons of the body above a plane through the root of the neck that falls from the nape to the collarbones.
+/// Polygons of the body above a plane that falls from the nape to the collarbones, without the shoulders.
 std::vector<std::uint32_t> head_polygons(const Polygons& base) {
     const glm::dvec3 neck = joint(base, "joint-neck"), head = joint(base, "joint-head");
-    // From the joints (which move with the person's shape): a tenth of the neck's length below its root, falling by
-    // 0.45 towards the front, as the first rib does.
-    const double drop = 0.1 * (head.y - neck.y), slope = 0.45;
-    const auto above = [&](Polygons::Corner corner) {
-        const glm::dvec3& p = base.positions[corner.vertex];
-        return p.y > neck.y - drop - slope * (p.z - neck.z);
+    // Measured in the distance of the two joints: a bust ends 0.28 of it below the root of the neck, lower in front,
+    // and 0.92 of it to the sides. Of the planes tried, this one follows the rings of quads with the fewest steps (4).
+    const double unit = head.y - neck.y, drop = 0.28 * unit, slope = 0.2, half_width = 0.92 * unit;
+    const auto in_bust = [&](Polygons::Corner corner) {
+        const glm::dvec3 p = base.positions[corner.vertex] - neck;
+        return p.y > -drop - slope * p.z && std::abs(p.x) < half_width + std::max(0.0, p.y);
     };
     const auto body = std::ranges::find(base.parts, "body") - base.parts.begin();
     return polygons_where(base, [&](const Polygons::Polygon& polygon) {
-        return polygon.part == static_cast<std::uint32_t>(body) && all_corners(base, polygon, above);
+        return polygon.part == static_cast<std::uint32_t>(body) && all_corners(base, polygon, in_bust);
     });
 }
 
@@ -178,10 +178,11 @@ std::optional<Surface> attach(const MakeHumanFiles& files, const PartFiles& part
         refuse(fitting_path, "it places " + std::to_string(fitting.anchors.size()) + " vertices, " + obj_path +
                                  " has " + std::to_string(polygons.positions.size()));
     }
-    polygons.positions = fitting.fit(base);
+    const glm::dvec3 growth = fitting.growth(base);
+    polygons.positions = fitting.fit(base, growth);
     Bodies moved;
     for (const std::vector<glm::dvec3>& body : bodies) {
-        moved.push_back(fitting.fit(body));
+        moved.push_back(fitting.fit(body, growth));
         if (moved.back() == polygons.positions) moved.back().clear();
     }
     return Surface(std::move(polygons), std::move(moved));
@@ -241,6 +242,8 @@ Result<ImportedHead> import_files(const MakeHumanFiles& files, std::span<const S
     const Bytes* base_obj = files.find("base.obj", &base_path);
     if (!base_obj) refuse("", "there is no base.obj in it, MakeHuman's base mesh");
     Polygons base = read_polygons(*base_obj, PartsBy::group, base_path);
+    // Before any shape, so that the cut runs along the same edges for every person.
+    const std::vector<std::uint32_t> head_and_neck = head_polygons(base);
 
     std::vector<std::string> names, notes;
     std::vector<Morph> morphs;
@@ -274,7 +277,7 @@ Result<ImportedHead> import_files(const MakeHumanFiles& files, std::span<const S
     const std::vector<glm::dvec3> rest = base.positions;
     const std::int32_t skin = looks.add("skin", 0.5F, {0.58F, 0.36F, 0.27F, 1}, skin_file(files));
     const Surface body(std::move(base), bodies);
-    head.add_mesh("head", body, std::vector<Piece>{{skin, head_polygons(body.polygons())}}, 0);
+    head.add_mesh("head", body, std::vector<Piece>{{skin, head_and_neck}}, 0);
 
     if (const auto surface = attach(files, eyes, rest, bodies, notes)) add_eyes(*surface, files, looks, head);
     const auto add_part = [&](const PartFiles& part, const std::string& name, std::int32_t material) {

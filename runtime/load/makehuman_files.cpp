@@ -66,12 +66,16 @@ Fitting read_fitting(ByteView text, std::size_t base_vertex_count, std::string_v
     return fitting;
 }
 
-std::vector<glm::dvec3> Fitting::fit(std::span<const glm::dvec3> base) const {
+glm::dvec3 Fitting::growth(std::span<const glm::dvec3> base) const {
     glm::dvec3 growth(1);
     for (glm::length_t axis = 0; axis < 3; ++axis) {
         const Scale& scale = scales[static_cast<std::size_t>(axis)];
         if (scale.distance > 0) growth[axis] = std::abs(base[scale.from][axis] - base[scale.to][axis]) / scale.distance;
     }
+    return growth;
+}
+
+std::vector<glm::dvec3> Fitting::fit(std::span<const glm::dvec3> base, const glm::dvec3& growth) const {
     std::vector<glm::dvec3> positions;
     positions.reserve(anchors.size());
     for (const Anchor& anchor : anchors) {

@@ -40,8 +40,11 @@ struct Fitting {
     std::vector<Anchor> anchors;
     std::array<Scale, 3> scales;  ///< x, y, z
 
-    /// The part's vertices on a base mesh of any shape.
-    std::vector<glm::dvec3> fit(std::span<const glm::dvec3> base) const;
+    /// How far the offsets' axes grow on a base mesh of this shape.
+    glm::dvec3 growth(std::span<const glm::dvec3> base) const;
+    /// The part's vertices on a base mesh of any shape. An expression moves a part but does not make it grow, so its
+    /// `growth` is that of the base mesh at rest (an open jaw would else stretch the teeth that measure it).
+    std::vector<glm::dvec3> fit(std::span<const glm::dvec3> base, const glm::dvec3& growth) const;
 };
 
 Fitting read_fitting(ByteView text, std::size_t base_vertex_count, std::string_view place);

@@ -101,7 +101,7 @@ void shade(CharacterState& state, const FrameGraph& graph) {
     const float far_depth = 1;
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_depth);
 
-    const shared::FrameBlock block = frame_block(view.camera);
+    const shared::FrameBlock block = frame_block(state.camera);
     glNamedBufferSubData(state.model.frame_block.name(), 0, sizeof(block), &block);
     write_draw_blocks(state);
     glBindBufferBase(GL_UNIFORM_BUFFER, BLUSH_FRAME_BINDING, state.model.frame_block.name());

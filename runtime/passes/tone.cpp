@@ -1,32 +1,32 @@
-/// The end of a frame: radiance to display values (filmic curve, sRGB), or as it is.
+/// The end of a picture: radiance to display values (filmic curve, sRGB), or as it is.
 
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush {
 
-void declare_tone(CharacterState& state) {
-    const auto tone = [&state](const FrameGraph& graph) {
-        bind_output(state, graph, state.resources.display);
+void declare_tone(CharacterState& state, ResourceId to) {
+    const auto tone = [&state, from = state.resources.scene_color, to](const FrameGraph& graph) {
+        bind_output(state, graph, to);
         glUseProgram(state.tone_program.name());
-        glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[state.resources.scene_color].handle);
+        glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[from].handle);
         glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
         glUniform1f(0, state.view->exposure);
-        glBindVertexArray(state.no_attributes.name());
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        draw_screen(state);
     };
-    state.graph.pass("tone", tone).reads(state.resources.scene_color).writes(state.resources.display);
+    state.graph.pass("tone", tone).reads(state.resources.scene_color).writes(to);
 }
 
-void declare_copy(CharacterState& state) {
-    const auto copy = [&state](const FrameGraph& graph) {
+void declare_copy(CharacterState& state, ResourceId from, ResourceId to) {
+    const auto copy = [&state, from, to](const FrameGraph& graph) {
         const auto width = static_cast<GLint>(state.view->width), height = static_cast<GLint>(state.view->height);
-        glNamedFramebufferTexture(state.resolved_framebuffer.name(), GL_COLOR_ATTACHMENT0,
-                                  graph[state.resources.scene_color].handle, 0);
-        glBlitNamedFramebuffer(state.resolved_framebuffer.name(), state.view->framebuffer, 0, 0, width, height, 0, 0,
-                               width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        const GLuint source = state.resolved_framebuffer.name();
+        glNamedFramebufferTexture(source, GL_COLOR_ATTACHMENT0, graph[from].handle, 0);
+        bind_output(state, graph, to);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
+        glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     };
-    state.graph.pass("copy", copy).reads(state.resources.scene_color).writes(state.resources.target);
+    state.graph.pass("copy", copy).reads(from).writes(to);
 }
 
 }  // namespace blush

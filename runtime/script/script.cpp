@@ -152,7 +152,9 @@ void Script::State::apply_played(double seconds, std::span<float> controls) {
 }
 
 bool Script::State::idle() const {
-    return started && std::ranges::all_of(tasks, [](const ScriptTask& task) { return task.dead; }) && triggers.empty();
+    const auto waits_for_event_alone = [](const ScriptTask& task) { return task.dead || std::isinf(task.due_seconds); };
+    return started && events.empty() && std::ranges::all_of(tasks, waits_for_event_alone) &&
+           std::ranges::none_of(triggers, [](const ScriptTrigger& trigger) { return trigger.event.empty(); });
 }
 
 Result<Script> Script::create(std::string text, const std::string& file, const Rig& rig, ScriptOptions options) {
@@ -223,6 +225,8 @@ void Script::apply(std::span<float> controls) {
     state_->apply_played(state_->moment.now_seconds, controls);
     state_->moment.motions.apply(state_->moment.now_seconds, controls);
 }
+
+void Script::mute() { state_->sandbox->print = nullptr; }
 
 Status Script::restart() {
     auto fresh = std::make_unique<State>();

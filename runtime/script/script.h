@@ -69,11 +69,15 @@ public:
     /// play() began since the last step.
     void apply(std::span<float> controls);
 
+    /// Keeps print() quiet until restart(): for a run that only finds out how long a script takes.
+    void mute();
+
     /// Begins again, as if just created. Error: as create().
     Status restart();
 
     double now_seconds() const;
-    /// No task waits and no event can begin one: nothing will happen any more, except motions coming to their ends.
+    /// No task waits for its time and nothing repeats: without an event nothing will happen any more, except motions
+    /// coming to their ends.
     bool ended() const;
     bool stopped_by_error() const;
     /// When the last motion, caption or performance so far begun will have come to its end.

@@ -432,7 +432,7 @@ int say(lua_State* lua) {
     State& state = State::of(lua);
     const std::string text = string_at(lua, 1, "say", "the text");
     const CallOptions options(lua, 2, "say", {"over"});
-    const double over = options.seconds("over", reading_seconds(text));
+    const double over = options.seconds("over", static_cast<double>(reading_seconds(text)));
     if (state.captions.size() >= most_captions) state.captions.erase(state.captions.begin());
     state.captions.push_back({text, state.now(), state.now() + over});
     settle(state, state.now() + over);

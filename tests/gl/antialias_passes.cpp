@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <memory>
+
 #include "rig/antialias/blend.h"
 #include "rig/antialias/edges.h"
 #include "rig/antialias/weights.h"
@@ -60,95 +64,241 @@ EdgeMap read_edges(const Surface& surface) {
     return edges;
 }
 
+int worst_difference(const Surface& surface, const WeightMap& expected) {
+    const auto bytes = surface.read<std::uint8_t>(GL_RGBA, GL_UNSIGNED_BYTE, 4);
+    int worst = 0;
+    for (std::size_t i = 0; i < expected.cells.size(); ++i) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            const int wanted = expected.cells[i][static_cast<glm::length_t>(c)];
+            worst = std::max(worst, std::abs(bytes[4 * i + c] - wanted));
+        }
+    }
+    return worst;
+}
+
+/// Relative above 1; infinite where one is not finite and the other is not the same.
+double worst_difference(const Surface& surface, const Pixels& expected) {
+    const auto floats = surface.read<float>(GL_RGBA, GL_FLOAT, 4);
+    double worst = 0;
+    for (std::size_t i = 0; i < expected.cells.size(); ++i) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            const double wanted = static_cast<double>(expected.cells[i][static_cast<glm::length_t>(c)]);
+            const double got = static_cast<double>(floats[4 * i + c]);
+            if (wanted == got || (std::isnan(wanted) && std::isnan(got))) continue;
+            const double difference = std::abs(got - wanted) / std::max(1.0, std::abs(wanted));
+            worst = std::isfinite(difference) ? std::max(worst, difference) : std::numeric_limits<double>::infinity();
+        }
+    }
+    return worst;
+}
+
+/// One step of 8 bits, which rounding may go astray by, and the rounding of the reference.
+constexpr double byte = 1.001 / 255;
+
 class AntialiasPassesTest : public test::GlTest {
 protected:
     AntialiasPassesTest() {
         Result<AntialiasPasses> made = AntialiasPasses::create();
-        EXPECT_TRUE(made) << made.error().message;
+        if (!made) {
+            ADD_FAILURE() << made.error().message;
+            std::abort();
+        }
         passes_ = std::make_unique<AntialiasPasses>(*std::move(made));
-    }
-
-    static int worst_difference(const Surface& surface, const WeightMap& expected) {
-        const auto bytes = surface.read<std::uint8_t>(GL_RGBA, GL_UNSIGNED_BYTE, 4);
-        int worst = 0;
-        for (std::size_t i = 0; i < expected.cells.size(); ++i) {
-            for (std::size_t c = 0; c < 4; ++c) {
-                const int wanted = expected.cells[i][static_cast<glm::length_t>(c)];
-                worst = std::max(worst, std::abs(bytes[4 * i + c] - wanted));
-            }
-        }
-        return worst;
-    }
-    static double worst_difference(const Surface& surface, const Pixels& expected) {
-        const auto floats = surface.read<float>(GL_RGBA, GL_FLOAT, 4);
-        double worst = 0;
-        for (std::size_t i = 0; i < expected.cells.size(); ++i) {
-            for (std::size_t c = 0; c < 4; ++c) {
-                const float wanted = expected.cells[i][static_cast<glm::length_t>(c)];
-                const double difference = std::abs(static_cast<double>(floats[4 * i + c] - wanted));
-                worst = std::max(worst, difference / std::max(1.0, std::abs(static_cast<double>(wanted))));
-            }
-        }
-        return worst;
     }
 
     std::unique_ptr<AntialiasPasses> passes_;
 };
 
-TEST_F(AntialiasPassesTest, EqualTheirTwinsOnEveryPicture) {
+/// Everything that a filter does to one picture.
+struct Steps {
+    Steps(const Pixels& pixels, GLenum format)
+        : picture(pixels),
+          color(upload(pixels, format)),
+          edges(color.width, color.height, GL_RG8),
+          weights(color.width, color.height, GL_RGBA8),
+          out(color.width, color.height, format) {}
+    const Pixels& picture;
+    Surface color, edges, weights, out;
+    EdgeTiles tiles;
+};
+
+void expect_smaa(const AntialiasPasses& passes, Steps& steps, const SmaaSettings& settings, SubsampleSlices slices,
+                 const PictureMeaning& meaning) {
+    const EdgeMap edges = find_edges(steps.picture, {}, settings.edges, meaning);
+    const WeightMap weights = smaa_weights(edges, settings, slices);
+    passes.edges(steps.color.texture.name(), 0, settings.edges, meaning, steps.tiles, steps.edges.target());
+    EXPECT_TRUE(read_edges(steps.edges).cells == edges.cells);
+    passes.smaa_weights(steps.edges.texture.name(), settings, slices, steps.tiles, steps.weights.target());
+    EXPECT_LE(worst_difference(steps.weights, weights), 1);
+    passes.blend(steps.color.texture.name(), steps.weights.texture.name(), meaning, steps.tiles, steps.out.target());
+    EXPECT_LE(worst_difference(steps.out, blend_neighbors(steps.picture, weights, meaning)), byte);
+}
+
+void expect_mlaa(const AntialiasPasses& passes, Steps& steps, const MlaaSettings& settings) {
+    const EdgeMap edges = find_edges(steps.picture, {}, settings.edges, {});
+    const WeightMap weights = mlaa_weights(edges, settings);
+    passes.edges(steps.color.texture.name(), 0, settings.edges, {}, steps.tiles, steps.edges.target());
+    EXPECT_TRUE(read_edges(steps.edges).cells == edges.cells);
+    passes.mlaa_weights(steps.edges.texture.name(), settings, steps.tiles, steps.weights.target());
+    EXPECT_LE(worst_difference(steps.weights, weights), 1);
+    passes.blend(steps.color.texture.name(), steps.weights.texture.name(), {}, steps.tiles, steps.out.target());
+    EXPECT_LE(worst_difference(steps.out, blend_neighbors(steps.picture, weights, {})), byte);
+}
+
+/// All pictures of a list beside and below each other, a dark margin around each: one upload instead of many. Its
+/// right side does not end on a tile.
+Pixels sheet_of(const std::vector<NamedPicture>& pictures) {
+    constexpr int width = 501, margin = 5;
+    std::vector<glm::ivec2> places;
+    glm::ivec2 at(margin);
+    int row_height = 0;
+    for (const NamedPicture& picture : pictures) {
+        if (at.x + picture.pixels.width + margin > width) {
+            at = {margin, at.y + row_height + margin};
+            row_height = 0;
+        }
+        places.push_back(at);
+        at.x += picture.pixels.width + margin;
+        row_height = std::max(row_height, picture.pixels.height);
+    }
+    Pixels sheet(width, at.y + row_height + margin, {0, 0, 0, 1});
+    for (std::size_t p = 0; p < pictures.size(); ++p) {
+        const Pixels& pixels = pictures[p].pixels;
+        for (int y = 0; y < pixels.height; ++y) {
+            for (int x = 0; x < pixels.width; ++x) sheet.at(places[p].x + x, places[p].y + y) = pixels.at(x, y);
+        }
+    }
+    return sheet;
+}
+
+TEST_F(AntialiasPassesTest, EqualTheirTwinsOnASheetOfPictures) {
     const gl::StateGuard guard;
     const auto pictures = test::antialias_pictures();
-    ASSERT_GE(pictures.size(), 50U);
-    for (const NamedPicture& picture : pictures) {
+    ASSERT_GE(pictures.size(), 150U);
+    const Pixels sheet = sheet_of(pictures);
+    Steps steps(sheet, GL_RGBA8);
+    for (std::size_t preset = 0; preset < smaa_preset_names.size(); ++preset) {
+        SCOPED_TRACE(smaa_preset_names[preset]);
+        expect_smaa(*passes_, steps, smaa_preset(static_cast<SmaaPreset>(preset)), SubsampleSlices(0), {});
+    }
+    for (const int search_steps : {1, 4}) {
+        MlaaSettings settings;
+        settings.search_steps = search_steps;
+        expect_mlaa(*passes_, steps, settings);
+    }
+    // All slices of the tables, odd reaches, corners as they are.
+    for (int slice = 1; slice < 7; slice += 2) {
+        SmaaSettings settings;
+        settings.edges.source = slice == 3 ? EdgeSource::color : EdgeSource::luma;
+        settings.edges.contrast_factor = slice < 4 ? 0.5F : 0;
+        settings.search_steps = slice;
+        settings.diagonal_search_steps = 2 * slice;
+        settings.corner_rounding = static_cast<float>(slice) / 6;
+        const SubsampleSlices slices(slice, 7 - slice, (slice + 2) % 7, (slice + 4) % 7);
+        PictureMeaning meaning;
+        meaning.blend_in_linear_light = slice == 1;
+        expect_smaa(*passes_, steps, settings, slices, meaning);
+    }
+}
+
+TEST_F(AntialiasPassesTest, EqualTheirTwinsOnPicturesOfEverySize) {
+    const gl::StateGuard guard;
+    for (const NamedPicture& picture : test::antialias_pictures()) {
+        const int width = picture.pixels.width, height = picture.pixels.height;
+        // Lines that leave the picture, sides of one or two pixels, sides that do not end on a tile.
+        const bool odd = width < 3 || height < 4 || width > 100 || picture.name.find("noise") != std::string::npos;
+        if (!odd) continue;
         SCOPED_TRACE(picture.name);
-        const Surface color = upload(picture.pixels, GL_RGBA8);
-        const Surface edges(color.width, color.height, GL_RG8), weights(color.width, color.height, GL_RGBA8),
-            out(color.width, color.height, GL_RGBA8);
-        for (const SmaaPreset preset : {SmaaPreset::low, SmaaPreset::high, SmaaPreset::ultra}) {
-            const SmaaSettings settings = smaa_preset(preset);
-            const PictureMeaning meaning;
-            const EdgeMap expected_edges = find_edges(picture.pixels, {}, settings.edges, meaning);
-            const WeightMap expected_weights = blush::smaa_weights(expected_edges, settings);
-            passes_->edges(color.texture.name(), 0, settings.edges, meaning, edges.target());
-            EXPECT_EQ(read_edges(edges).cells, expected_edges.cells);
-            passes_->smaa_weights(edges.texture.name(), settings, SubsampleSlices(0), weights.target());
-            EXPECT_LE(worst_difference(weights, expected_weights), 0);
-            passes_->blend(color.texture.name(), weights.texture.name(), meaning, out.target());
-            EXPECT_LE(worst_difference(out, blend_neighbors(picture.pixels, expected_weights, meaning)), 1 / 255.0);
-        }
-        const MlaaSettings settings;
-        const EdgeMap expected_edges = find_edges(picture.pixels, {}, settings.edges, {});
-        passes_->edges(color.texture.name(), 0, settings.edges, {}, edges.target());
-        EXPECT_EQ(read_edges(edges).cells, expected_edges.cells);
-        passes_->mlaa_weights(edges.texture.name(), settings, weights.target());
-        EXPECT_LE(worst_difference(weights, blush::mlaa_weights(expected_edges, settings)), 0);
+        Steps steps(picture.pixels, GL_RGBA8);
+        expect_smaa(*passes_, steps, smaa_preset(SmaaPreset::high), SubsampleSlices(0), {});
+        expect_mlaa(*passes_, steps, {});
     }
 }
 
 TEST_F(AntialiasPassesTest, FindEdgesOfEverySourceAsTheirTwin) {
     const gl::StateGuard guard;
-    for (const NamedPicture& picture : test::antialias_pictures()) {
-        SCOPED_TRACE(picture.name);
-        const Surface color = upload(picture.pixels, GL_RGBA32F);
-        DepthPixels depth(color.width, color.height);
-        for (std::size_t i = 0; i < depth.cells.size(); ++i) depth.cells[i] = 0.5F + picture.pixels.cells[i].g * 0.1F;
-        const Surface depth_surface = upload(depth);
-        const Surface edges(color.width, color.height, GL_RG8);
-        for (const EdgeSource source : {EdgeSource::luma, EdgeSource::color, EdgeSource::depth}) {
-            for (const AlphaMeaning alpha :
-                 {AlphaMeaning::carried, AlphaMeaning::straight, AlphaMeaning::premultiplied}) {
-                for (const bool on : {false, true}) {
-                    EdgeSettings settings;
-                    settings.source = source;
-                    settings.predication.on = on;
-                    const PictureMeaning meaning{on ? Transfer::linear : Transfer::srgb, alpha, true};
-                    passes_->edges(color.texture.name(), depth_surface.texture.name(), settings, meaning,
-                                   edges.target());
-                    EXPECT_EQ(read_edges(edges).cells, find_edges(picture.pixels, depth, settings, meaning).cells)
-                        << static_cast<int>(source) << static_cast<int>(alpha) << on;
-                }
+    const Pixels sheet = sheet_of(test::antialias_pictures());
+    const Surface color = upload(sheet, GL_RGBA32F);
+    DepthPixels depth(sheet.width, sheet.height);
+    for (std::size_t i = 0; i < depth.cells.size(); ++i) depth.cells[i] = 0.5F + sheet.cells[i].g * 0.1F;
+    const Surface depth_surface = upload(depth), edges(color.width, color.height, GL_RG8);
+    EdgeTiles tiles;
+    for (const EdgeSource source : {EdgeSource::luma, EdgeSource::color, EdgeSource::depth}) {
+        for (const AlphaMeaning alpha : {AlphaMeaning::carried, AlphaMeaning::straight, AlphaMeaning::premultiplied}) {
+            const bool on = alpha != AlphaMeaning::carried;
+            EdgeSettings settings;
+            settings.source = source;
+            settings.predication.on = on;
+            const PictureMeaning meaning{on ? Transfer::linear : Transfer::srgb, alpha, true};
+            passes_->edges(color.texture.name(), depth_surface.texture.name(), settings, meaning, tiles,
+                           edges.target());
+            EXPECT_TRUE(read_edges(edges).cells == find_edges(sheet, depth, settings, meaning).cells)
+                << static_cast<int>(source) << static_cast<int>(alpha);
+        }
+    }
+}
+
+TEST_F(AntialiasPassesTest, EqualTheirTwinsOnFloatsOfEveryKind) {
+    const gl::StateGuard guard;
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    for (const float odd : {0.5F, 900.0F, -2.0F, nan, infinity, -infinity}) {
+        for (const AlphaMeaning alpha : {AlphaMeaning::carried, AlphaMeaning::straight}) {
+            for (const Transfer transfer : {Transfer::srgb, Transfer::linear}) {
+                Pixels picture = test::noise_picture(33, 30, 4, 3, false);
+                for (int k = 0; k < 30; k += 4) picture.at(k, (7 * k) % 30) = {odd, odd, 0.3F, 1};
+                for (int k = 0; k < 30; k += 3) picture.at(k, (11 * k) % 30).w = 0.4F;
+                Steps steps(picture, GL_RGBA32F);
+                expect_smaa(*passes_, steps, smaa_preset(SmaaPreset::high), SubsampleSlices(0),
+                            {transfer, alpha, true});
             }
         }
+    }
+}
+
+TEST_F(AntialiasPassesTest, EqualTheirTwinsOnRenderedFaces) {
+    const gl::StateGuard guard;
+    test::FaceOptions options;
+    options.targets = 4;
+    Character character = make_character(test::make_face(options));
+    const Offscreen offscreen = make_offscreen(96, 96);
+    for (const float weight : {0.0F, 1.0F}) {
+        test::set_weights(character, {weight, 0, weight, 0});
+        const Image image = test::draw(character, offscreen);
+        Pixels picture(96, 96);
+        for (std::size_t p = 0; p < picture.cells.size(); ++p) {
+            for (std::size_t c = 0; c < 4; ++c) {
+                picture.cells[p][static_cast<glm::length_t>(c)] = static_cast<float>(image.bytes[4 * p + c]) / 255.0F;
+            }
+        }
+        Steps steps(picture, GL_RGBA8);
+        SmaaSettings settings = smaa_preset(SmaaPreset::ultra);
+        settings.edges.threshold = 0.02F;  // the little face is lit softly
+        expect_smaa(*passes_, steps, settings, SubsampleSlices(0), {});
+        expect_mlaa(*passes_, steps, {});
+    }
+}
+
+TEST_F(AntialiasPassesTest, APictureWithoutEdgesKeepsItsBits) {
+    const gl::StateGuard guard;
+    for (const GLenum format : {GLenum{GL_RGBA8}, GLenum{GL_RGBA32F}}) {
+        const bool bytes = format == GL_RGBA8;
+        const Pixels picture(21, 10, bytes ? glm::vec4(17, 99, 201, 3) / 255.0F : glm::vec4(-3, 7e4F, 0.1F, 0.7F));
+        Steps steps(picture, format);
+        expect_smaa(*passes_, steps, smaa_preset(SmaaPreset::ultra), SubsampleSlices(0), {});
+        const auto in = steps.color.read<float>(GL_RGBA, GL_FLOAT, 4);
+        EXPECT_TRUE(in == steps.out.read<float>(GL_RGBA, GL_FLOAT, 4));
+    }
+}
+
+TEST_F(AntialiasPassesTest, TilesMayBeUsedForPicturesOfChangingSize) {
+    const gl::StateGuard guard;
+    EdgeTiles tiles;
+    for (const int side : {16, 70, 9}) {
+        const Pixels picture = test::noise_picture(side, side, 3, 2, true);
+        Steps steps(picture, GL_RGBA8);
+        std::swap(steps.tiles, tiles);
+        expect_smaa(*passes_, steps, {}, SubsampleSlices(0), {});
+        std::swap(steps.tiles, tiles);
     }
 }
 

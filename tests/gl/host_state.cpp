@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -352,6 +353,31 @@ TEST_F(HostState, DrawingRestoresEverythingAndIsNotDisturbed) {
         expect_same(before, take_snapshot(), "Character::read_deformed");
         const Offscreen another = make_offscreen(8, 8);
         expect_same(before, take_snapshot(), "Offscreen::create");
+    }
+}
+
+TEST_F(HostState, EveryWayToSampleRestoresEverythingAndIsNotDisturbed) {
+    const Offscreen offscreen = make_offscreen(24, 24);
+    for (const auto& [mode, resolve] : {std::pair("msaa4", "hdr"), {"smaa_4x", "average"}}) {
+        SCOPED_TRACE(mode);
+        const auto two_frames = [&, mode = mode, resolve = resolve](const std::function<void(const char*)>& check) {
+            Character character = make_character(busy_face());
+            EXPECT_TRUE(character.set("antialiasing.mode", mode));
+            EXPECT_TRUE(character.set("multisampling.resolve", resolve));
+            View view = test::framed_view(character, offscreen);
+            view.check_finite = false;
+            character.draw(view);
+            check("the first frame");
+            test::set_weights(character, {1, 0.5F, 0});
+            character.draw(view);
+            check("the second frame");
+            return offscreen.read();
+        };
+        const Image expected = two_frames([](const char*) {});
+        const WildHost host;
+        const Snapshot before = take_snapshot();
+        const Image image = two_frames([&](const char* what) { expect_same(before, take_snapshot(), what); });
+        EXPECT_EQ(image.bytes, expected.bytes);
     }
 }
 

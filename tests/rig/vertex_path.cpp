@@ -361,7 +361,7 @@ TEST(PackedTargets, SixteenBitsStayWithinHalfAStepAndGiveOneAnswer) {
             most = std::max({most, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         }
         // Half a step in each of three components, and a share for the rounding of the sum itself.
-        bound += std::sqrt(3.0) * 0.501 * double{most} / 32767 * std::abs(double{weights[t]});
+        bound += std::sqrt(3.0) * 0.501 * static_cast<double>(most) / 32767 * std::abs(static_cast<double>(weights[t]));
     }
     bound += 9 * 1.2e-7;
     std::vector<glm::vec3> first;
@@ -405,7 +405,7 @@ TEST(PackedTargets, DroppingSmallDeltasStaysWithinItsBound) {
     const Face face = make_face({.side = 40, .targets = 8, .normal_deltas = true});
     const std::vector<float> weights = spread_weights(face, 8);
     double weight_sum = 0;
-    for (const float weight : weights) weight_sum += std::abs(double{weight});
+    for (const float weight : weights) weight_sum += std::abs(static_cast<double>(weight));
     const DeformedSurface exact = deformed(VertexPath(face), face, weights, NormalMethod::authored);
     std::size_t dropped = 0;
     for (const float threshold : {0.001F, 0.01F}) {
@@ -415,7 +415,7 @@ TEST(PackedTargets, DroppingSmallDeltasStaysWithinItsBound) {
         const DeformedSurface fewer = deformed(path, face, weights, NormalMethod::authored);
         const double worst = worst_move(fewer.positions, exact.positions);
         EXPECT_GT(worst, 0);
-        EXPECT_LE(worst, double{threshold} * weight_sum + 8 * 1.2e-7);
+        EXPECT_LE(worst, static_cast<double>(threshold) * weight_sum + 8 * 1.2e-7);
         EXPECT_TRUE(same_bits(fewer.normals, exact.normals));  // NORMAL deltas stay
     }
     EXPECT_EQ(VertexPath(face).targets().dropped, 0U);

@@ -152,7 +152,7 @@ TEST_F(Cli, BadPerformancesAreNamed) {
     const std::string play = "play face.glb -o f/%d.png --size 64x64 --performance ";
     expect_refused(play + "wat",
                    "--performance wat: neither a file, nor an animation of face.glb, nor shipped (there are: "
-                   "first_light)");
+                   "compliment, first_light, six_feelings)");
     expect_refused(play + "no_time.csv",
                    "no_time.csv: row 1 has no column 'Timecode': this is neither a Live Link Face CSV "
                    "nor a blush performance (JSON)");

@@ -79,7 +79,9 @@ Status read_face(const Options& options, Inputs& inputs) {
     if (!inputs.canonical || !full) {
         return Error{face->path + ": its skin has no texture coordinates that span a texture"};
     }
-    inputs.coverage = full->coverage;
+    // Filtering at the edge of a chart reaches beyond it; a rim of skin keeps the edge from showing when blood changes.
+    constexpr float rim_texels = 4;
+    inputs.coverage = local_statistics(full->coverage, rim_texels).mean;
     return Done{};
 }
 
@@ -154,6 +156,9 @@ int bake(const Options& options) {
     AlbedoOptions separation = options.separation;
     separation.typical_melanin = options.typical_melanin;
     separation.typical_hemoglobin = options.typical_hemoglobin;
+    const std::optional<ScalarMap> face =
+        inputs->canonical ? std::optional(face_region(*inputs->canonical)) : std::nullopt;
+    separation.typical_region = face ? &*face : nullptr;
     const SkinColourTable table;
     AlbedoReport report;
     const AppearanceMaps maps = appearance_from_albedo(inputs->albedo, table, separation,

@@ -8,6 +8,7 @@
 #include "runtime/face_file.h"
 #include "runtime/output_file.h"
 #include "tools/blush/options.h"
+#include "tools/blush/performing.h"
 
 namespace blush::tool {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 struct Options {
     std::string face, on = "cpu", output, space = "mesh";
     PoseOptions pose;
+    PerformOptions perform;
     bool check_finite = false;
 };
 
@@ -32,7 +34,9 @@ std::optional<NotFinite> find_not_finite(const Character::Surface& surface, cons
 }
 
 Result<Character::Surface> evaluate_on_cpu(const Face& face, const Options& options) {
-    const Rig rig(face);
+    const Result<RigDescription> description = describe_rig(face, options.pose);
+    if (!description) return description.error();
+    const Rig rig(face, *description);
     std::vector<float> controls(rig.control_names().size());
     if (Status set = options.pose.apply(face, rig, controls); !set) return set.error();
     EffectSettings settings;
@@ -44,6 +48,10 @@ Result<Character::Surface> evaluate_on_cpu(const Face& face, const Options& opti
         }
     }
     Pose pose = rig.rest_pose();
+    const auto no_colour = [](const BloodFlow&) {};
+    if (Status performed = perform_moment(face, rig, options.perform, controls, pose, no_colour); !performed) {
+        return performed.error();
+    }
     rig.evaluate(controls, pose);
     Deformer deformer(face);
     DeformedSurface surface;
@@ -80,7 +88,14 @@ int evaluate(const Options& options) {
     } else {
         Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
         if (!stage) return fail(stage.error());
-        surface = (*stage)->character.read_deformed();
+        Character& character = (*stage)->character;
+        const auto no_colour = [](const BloodFlow&) {};
+        if (Status performed = perform_moment(character.face(), character.rig(), options.perform, character.controls(),
+                                              character.pose(), no_colour);
+            !performed) {
+            return fail(performed.error());
+        }
+        surface = character.read_deformed();
     }
     if (options.check_finite) {
         FrameReport report;
@@ -104,6 +119,7 @@ void add_evaluate(CLI::App& app, int& exit_status) {
         "evaluate", "Write the deformed mesh: every vertex of the file, all primitives in file order, before joints");
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
     options->pose.add_to(*command);
+    options->perform.add_moment_to(*command);
     command->add_option("--on", options->on, "Where to compute")
         ->check(CLI::IsMember({"cpu", "gpu"}))
         ->capture_default_str();

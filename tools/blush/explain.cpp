@@ -1,6 +1,7 @@
 /// blush explain: what the frame that `render` draws runs, what it leaves out, and why.
 
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "runtime/offscreen.h"
@@ -16,6 +17,74 @@ struct Options {
     PoseOptions pose;
     bool json = false, check_finite = false;
 };
+
+/// What of the rig acts, and what it leaves out: all of it exactly, since a control at 0 adds nothing.
+Json describe_rig(const Rig& rig, const Pose& pose) {
+    const std::span<const std::string> names = rig.control_names();
+    Json json;
+    json["controls"] = names.size();
+    json["acting"] = Json::array();
+    std::map<std::string_view, std::size_t> at_rest;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        const std::string_view kind = name_of(rig.info(static_cast<ControlId>(c)).kind);
+        if (pose.acting[c] == 0) {
+            ++at_rest[kind];
+        } else {
+            json["acting"].push_back({{"name", names[c]}, {"kind", kind}, {"value", pose.acting[c]}});
+        }
+    }
+    json["at_rest"] = Json::object();
+    for (const auto& [kind, count] : at_rest) json["at_rest"][std::string(kind)] = count;
+    json["correctives"] = Json::array();
+    for (const RigProgram::Corrective& corrective : rig.program().correctives) {
+        Json entry = {{"target", names[corrective.target]}, {"value", rig.value_of(corrective, pose)}};
+        for (const std::uint32_t driver : corrective.drivers.of(rig.program().corrective_drivers)) {
+            if (pose.acting[driver] <= 0) entry["without"].push_back(names[driver]);
+        }
+        json["correctives"].push_back(std::move(entry));
+    }
+    json["wrinkles"] = Json::object();
+    for (std::size_t z = 0; z < pose.wrinkles.size(); ++z) {
+        if (pose.wrinkles[z] != 0) json["wrinkles"][rig.wrinkle_zones()[z]] = pose.wrinkles[z];
+    }
+    json["hemoglobin"] = Json::object();
+    for (std::size_t m = 0; m < pose.hemoglobin.size(); ++m) {
+        if (pose.hemoglobin[m] != 0) json["hemoglobin"][rig.hemoglobin_maps()[m]] = pose.hemoglobin[m];
+    }
+    json["hemoglobin_factor"] = pose.hemoglobin_factor;
+    return json;
+}
+
+void print_values(const char* what, const Json& values) {
+    std::cout << "  " << what << ":";
+    for (const auto& [name, value] : values.items()) std::cout << " " << name << " = " << value.get<float>();
+    std::cout << (values.empty() ? " none" : "") << "\n";
+}
+
+void print_rig(const Json& rig) {
+    std::cout << "rig: " << rig["acting"].size() << " of " << rig["controls"] << " controls act\n";
+    for (const Json& control : rig["acting"]) {
+        std::cout << "  " << control["name"].get<std::string>() << " = " << control["value"].get<float>() << " ("
+                  << control["kind"].get<std::string>() << ")\n";
+    }
+    std::cout << "  left out, since at 0 (exact: changes no bit):";
+    for (const auto& [kind, count] : rig["at_rest"].items()) {
+        std::cout << (kind == rig["at_rest"].begin().key() ? " " : ", ") << count << " " << kind
+                  << (count == 1 ? "" : "s");
+    }
+    std::cout << "\n";
+    for (const Json& corrective : rig["correctives"]) {
+        std::cout << "  corrective " << corrective["target"].get<std::string>();
+        if (corrective.contains("without")) {
+            std::cout << ": left out, since " << corrective["without"][0].get<std::string>() << " is at rest (exact)\n";
+        } else {
+            std::cout << " = " << corrective["value"].get<float>() << "\n";
+        }
+    }
+    print_values("wrinkles", rig["wrinkles"]);
+    print_values("hemoglobin", rig["hemoglobin"]);
+    std::cout << "  all hemoglobin times " << rig["hemoglobin_factor"].get<float>() << "\n";
+}
 
 Json describe(const Face& face, const FrameReport& report) {
     Json json;
@@ -64,6 +133,7 @@ void print(const Json& json) {
     for (const Json& target : json["active_targets"]) {
         std::cout << "  " << text(target["name"]) << " = " << target["weight"].get<float>() << "\n";
     }
+    print_rig(json["rig"]);
 }
 
 int explain(const Options& options) {
@@ -76,9 +146,10 @@ int explain(const Options& options) {
     View view = offscreen->view();
     view.camera = character.framing(1).camera(1);
     view.check_finite = options.check_finite;
-    const FrameReport& report = character.draw(view);
+    const FrameReport& report = draw_alone(character, view);
     if (const int found = report_not_finite(report); found != 0) return found;
-    const Json json = describe(character.face(), report);
+    Json json = describe(character.face(), report);
+    json["rig"] = describe_rig(character.rig(), character.pose());
     if (options.json) {
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
     } else {

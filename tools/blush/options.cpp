@@ -9,6 +9,7 @@
 
 #include "rig/names.h"
 #include "runtime/face_file.h"
+#include "runtime/rig_description_file.h"
 
 namespace blush::tool {
 namespace fs = std::filesystem;
@@ -68,35 +69,76 @@ fs::path face_path(const std::string& name) { return name == "default" ? asset_f
 void PoseOptions::add_to(CLI::App& command, bool with_settings) {
     command.add_option("--set", sets,
                        "Controls and their values, such as jawOpen=0.6,mouthSmileLeft=1; the others are 0");
+    command.add_option("--emotion", emotions, "Emotions and compound states, such as joy=0.7,anger=0.2");
+    command.add_option("--state", states, "Physiological states, such as blush=1");
+    command.add_option("--rig", rig_file, "A rig description; FACE.rig.json where this is left out and there is one");
     command.add_flag("--defaults", defaults, "Start from the file's own weights instead of zero");
     if (with_settings) {
         command.add_option("--setting", settings, "Setting of an effect, such as deformation.method=passes");
     }
 }
 
+namespace {
+
+/// "NAME=VALUE,NAME=VALUE" of one option.
+class Assignments {
+public:
+    Assignments(const Face& face, const Rig& rig, std::span<float> controls)
+        : face_(face), rig_(rig), controls_(controls) {}
+
+    /// `wanted` says which controls the option may set, `what` names them.
+    template <class Wanted>
+    Status apply(const std::string& option, const std::vector<std::string>& lists, Wanted wanted,
+                 const std::string& what) const {
+        for (const std::string& list : lists) {
+            for (const std::string& part : CLI::detail::split(list, ',')) {
+                const std::size_t equals = part.rfind('=');
+                if (equals == std::string::npos) return Error{option + " " + part + ": not NAME=VALUE"};
+                const std::string name = part.substr(0, equals), number = part.substr(equals + 1);
+                float value = 0;
+                const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
+                if (read.ec != std::errc() || read.ptr != number.data() + number.size() || !std::isfinite(value)) {
+                    return Error{option + " " + part + ": \"" + number + "\" is not a finite number"};
+                }
+                const std::optional<ControlId> control = rig_.find(name);
+                if (!control || !wanted(*control)) return no_such(option + " " + part, name, wanted, what);
+                controls_[static_cast<std::size_t>(*control)] = value;
+            }
+        }
+        return Done{};
+    }
+
+private:
+    template <class Wanted>
+    Error no_such(const std::string& place, const std::string& name, Wanted wanted, const std::string& what) const {
+        std::vector<std::string> names;
+        for (std::size_t c = 0; c < rig_.control_names().size(); ++c) {
+            if (wanted(static_cast<ControlId>(c))) names.push_back(rig_.control_names()[c]);
+        }
+        const std::optional<std::string> near = nearest_name(name, names);
+        return Error{place + ": " + face_.path + " has no " + what + " \"" + name + "\"" +
+                     (near ? " (did you mean \"" + *near + "\"?)" : "")};
+    }
+
+    const Face& face_;
+    const Rig& rig_;
+    std::span<float> controls_;
+};
+
+}  // namespace
+
 Status PoseOptions::apply(const Face& face, const Rig& rig, std::span<float> controls) const {
     std::ranges::fill(controls, 0.0F);
     for (std::size_t t = 0; defaults && t < face.targets.size(); ++t) controls[t] = face.targets[t].default_weight;
-    for (const std::string& list : sets) {
-        for (const std::string& part : CLI::detail::split(list, ',')) {
-            const std::size_t equals = part.rfind('=');
-            if (equals == std::string::npos) return Error{"--set " + part + ": not NAME=VALUE"};
-            const std::string name = part.substr(0, equals), number = part.substr(equals + 1);
-            float value = 0;
-            const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
-            if (read.ec != std::errc() || read.ptr != number.data() + number.size() || !std::isfinite(value)) {
-                return Error{"--set " + part + ": \"" + number + "\" is not a finite number"};
-            }
-            const std::optional<ControlId> control = rig.find(name);
-            if (!control) {
-                const std::optional<std::string> near = nearest_name(name, rig.control_names());
-                return Error{"--set " + part + ": " + face.path + " has no control \"" + name + "\"" +
-                             (near ? " (did you mean \"" + *near + "\"?)" : "")};
-            }
-            controls[static_cast<std::size_t>(*control)] = value;
-        }
-    }
-    return Done{};
+    const Assignments assignments(face, rig, controls);
+    const auto any = [](ControlId) { return true; };
+    const auto emotion = [&rig](ControlId control) {
+        return rig.is(control, ControlKind::emotion) || rig.is(control, ControlKind::compound);
+    };
+    const auto state = [&rig](ControlId control) { return rig.is(control, ControlKind::state); };
+    if (Status set = assignments.apply("--set", sets, any, "control"); !set) return set.error();
+    if (Status set = assignments.apply("--emotion", emotions, emotion, "emotion"); !set) return set.error();
+    return assignments.apply("--state", states, state, "state");
 }
 
 Status PoseOptions::apply_settings(Character& character) const {
@@ -110,19 +152,32 @@ Status PoseOptions::apply_settings(Character& character) const {
     return Done{};
 }
 
+Result<RigDescription> describe_rig(const Face& face, const PoseOptions& pose) {
+    return find_rig_description(face, pose.rig_file);
+}
+
 Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const PoseOptions& pose) {
     // The face first: a bad file should be named even on a machine without GL.
     Result<Face> face = load_face(face_path(face_name));
     if (!face) return face.error();
+    const Result<RigDescription> description = describe_rig(*face, pose);
+    if (!description) return description.error();
     Result<Device> device = Device::headless();
     if (!device) return device.error();
-    Result<Character> character = Character::create(*device, *std::move(face));
+    Result<Character> character = Character::create(*device, *std::move(face), *description);
     if (!character) return character.error();
     auto stage = std::make_unique<Stage>(Stage{*std::move(device), *std::move(character)});
     Character& ready = stage->character;
     if (Status set = pose.apply(ready.face(), ready.rig(), ready.controls()); !set) return set.error();
     if (Status set = pose.apply_settings(ready); !set) return set.error();
     return stage;
+}
+
+const FrameReport& draw_alone(Character& character, View view) {
+    view.cut = true;
+    const FrameReport& report = character.draw(view);
+    view.cut = false;
+    return report.incomplete ? character.draw(view) : report;
 }
 
 int report_not_finite(const FrameReport& report) {

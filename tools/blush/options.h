@@ -32,9 +32,12 @@ std::filesystem::path face_path(const std::string& name);
 /// Folder of what the program ships, beside the build or the installation; empty when there is none.
 std::filesystem::path asset_folder();
 
-/// --set, --defaults, --setting: what a frame starts from.
+/// --set, --emotion, --state, --rig, --defaults, --setting: what a frame starts from.
 struct PoseOptions {
     std::vector<std::string> sets;      ///< "jawOpen=0.6", several separated by commas
+    std::vector<std::string> emotions;  ///< the same, of emotions and compounds alone
+    std::vector<std::string> states;    ///< the same, of physiological states alone
+    std::string rig_file;               ///< a rig description; empty: what stands beside the face
     std::vector<std::string> settings;  ///< "deformation.method=passes"
     bool defaults = false;              ///< start from the file's own weights instead of zero
 
@@ -49,7 +52,12 @@ struct Stage {
     Device device;
     Character character;
 };
+/// The rig that a loaded face has by these options.
+Result<RigDescription> describe_rig(const Face& face, const PoseOptions& pose);
 Result<std::unique_ptr<Stage>> make_stage(const std::string& face, const PoseOptions& pose);
+
+/// Draws a picture that stands alone: what was drawn before does not show, and a mode that needs two frames gets them.
+const FrameReport& draw_alone(Character& character, View view);
 
 /// Prints the finding of --check-finite and returns bad_input; 0 when there is none.
 int report_not_finite(const FrameReport& report);
@@ -62,10 +70,14 @@ void add_render(CLI::App& app, int& exit_status);
 void add_play(CLI::App& app, int& exit_status);
 void add_explain(CLI::App& app, int& exit_status);
 void add_accuracy(CLI::App& app, int& exit_status);
+void add_controls(CLI::App& app, int& exit_status);
+void add_lint(CLI::App& app, int& exit_status);
 void add_bake(CLI::App& app, int& exit_status);
+void add_antialias(CLI::App& app, int& exit_status);
 
 // The subcommands of bake.
 void add_bake_appearance(CLI::App& bake_command, int& exit_status);
 void add_bake_wrinkles(CLI::App& bake_command, int& exit_status);
+void add_bake_smaa_tables(CLI::App& bake_command, int& exit_status);
 
 }  // namespace blush::tool

@@ -10,6 +10,7 @@
 #include "tools/blush/interrupt.h"
 #include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"
+#include "tools/blush/performing.h"
 #include "tools/blush/playback.h"
 #include "tools/blush/progress.h"
 #include "tools/blush/video.h"
@@ -25,6 +26,7 @@ constexpr double most_seconds = 1e6;  // eleven days: a slip of the finger
 struct Options {
     std::string face, performance, output, contact_sheet, size = "720x720";
     PoseOptions pose;
+    PerformOptions perform;
     double frames_a_second = 30;
     float from_seconds = 0, to_seconds = -1, yaw_degrees = 0, pitch_degrees = 0;
     bool check_finite = false;
@@ -78,9 +80,10 @@ public:
         view_.camera = orbit.camera(aspect);
         view_.check_finite = options.check_finite;
     }
-    Result<Image> frame_at(double time_seconds) {
-        playback_.seek(static_cast<float>(time_seconds));
-        const FrameReport& report = stage_.character.draw(view_);
+    /// alone: not the frame after the one drawn before.
+    Result<Image> frame_at(double time_seconds, bool alone) {
+        if (Status played = playback_.seek(time_seconds); !played) return played.error();
+        const FrameReport& report = alone ? draw_alone(stage_.character, view_) : stage_.character.draw(view_);
         if (report.not_finite) {
             return Error{"--check-finite: at " + std::to_string(time_seconds) + " s " + report.not_finite->sentence()};
         }
@@ -105,7 +108,7 @@ Status write_frames(FrameSource& source, const Options& options, const Range& ra
                              std::to_string(range.frames) + " frames"};
             }
             const double time = range.from_seconds + static_cast<double>(f) / options.frames_a_second;
-            const Result<Image> image = source.frame_at(time);
+            const Result<Image> image = source.frame_at(time, f == 0);
             if (!image) return image.error();
             if (Status kept = keep(f, *image); !kept) return kept;
             progress.step();
@@ -158,7 +161,7 @@ Status write_contact_sheet(FrameSource& source, const Options& options, const Ra
         // The middles of eight equal parts: the ends of a performance are mostly neutral.
         const double share = (moment + 0.5) / (columns * rows);
         const Result<Image> image =
-            source.frame_at(range.from_seconds + share * (range.to_seconds - range.from_seconds));
+            source.frame_at(range.from_seconds + share * (range.to_seconds - range.from_seconds), true);
         if (!image) return image.error();
         if (sheet.bytes.empty()) {
             sheet.width = columns * image->width;
@@ -204,11 +207,16 @@ int play_to_files(Options options) {
     Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
     if (!stage) return fail(stage.error());
     Character& character = (*stage)->character;
-    Result<Performance> performance = find_performance(character.face(), options.performance);
-    if (!performance) return fail(performance.error());
-    Playback playback(character, BoundPerformance(*std::move(performance), character.rig()));
-    report_matches(playback.performance(), character.face());
-    const Result<Range> range = range_of(options, playback.performance().duration_seconds());
+    const Result<std::optional<BoundPerformance>> timeline =
+        find_timeline(character.face(), character.rig(), options.performance, options.perform);
+    if (!timeline) return fail(timeline.error());
+    Result<PerformerParts> parts =
+        options.perform.parts(character.face(), character.rig(), character.controls(), *timeline);
+    if (!parts) return fail(parts.error());
+    Playback playback(character, *std::move(parts));
+    const Result<float> duration = duration_of(playback.performer(), 12);
+    if (!duration) return fail(duration.error());
+    const Result<Range> range = range_of(options, std::max(*duration, options.to_seconds));
     if (!range) return fail(range.error());
     if (!options.contact_sheet.empty()) {
         if (Status good = check_contact_sheet(options, *size); !good) return fail(good.error());
@@ -253,6 +261,7 @@ void add_play(CLI::App& app, int& exit_status) {
         ->check(number_from(-360, 360));
     command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
     options->pose.add_to(*command);
+    options->perform.add_to(*command);
     command->add_option("-o,--output", options->output, "out.mp4, out.gif, frames/%05d.png or frames/%05d.exr");
     command->add_option("--contact-sheet", options->contact_sheet, "A picture of eight moments");
     command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
@@ -268,8 +277,8 @@ void add_play(CLI::App& app, int& exit_status) {
             exit_status = fail(size.error());
             return;
         }
-        exit_status = run_viewer({options->face, options->performance, options->pose, size->width, size->height,
-                                  options->from_seconds, options->to_seconds, options->frames_a_second,
+        exit_status = run_viewer({options->face, options->performance, options->pose, options->perform, size->width,
+                                  size->height, options->from_seconds, options->to_seconds, options->frames_a_second,
                                   options->check_finite, options->viewer_frames});
     });
 }

@@ -13,10 +13,7 @@ namespace fs = std::filesystem;
 
 std::string shipped_names() {
     std::string names;
-    std::error_code failed;
-    for (const auto& entry : fs::directory_iterator(asset_folder() / "performances", failed)) {
-        if (entry.path().extension() == ".json") names += ", " + entry.path().stem().string();
-    }
+    for (const std::string& name : shipped("performances", ".json")) names += ", " + name;
     return names;
 }
 
@@ -28,6 +25,16 @@ void list(const std::string& what, std::span<const std::string> names) {
 }
 
 }  // namespace
+
+std::vector<std::string> shipped(const std::string& folder, const std::string& ending) {
+    std::vector<std::string> names;
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(asset_folder() / folder, failed)) {
+        if (entry.path().extension() == ending) names.push_back(entry.path().stem().string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
 
 Result<Performance> find_performance(const Face& face, const std::string& name) {
     if (name.empty() && !face.animations.empty()) return performance_from_animations(face, std::nullopt);
@@ -52,12 +59,6 @@ void report_matches(const BoundPerformance& performance, const Face& face) {
     for (const std::string& note : performance.performance().notes) std::cerr << "note: " << note << "\n";
     list("channels without a control on " + face.path, performance.unmatched_channels());
     list("targets of " + face.path + " without a channel", performance.undriven_targets());
-}
-
-void Playback::seek(float time_seconds) {
-    std::ranges::copy(base_, character_->controls().begin());
-    std::ranges::copy(rest_.nodes, character_->pose().nodes.begin());
-    performance_.sample(time_seconds, character_->controls(), character_->pose());
 }
 
 }  // namespace blush::tool

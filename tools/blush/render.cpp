@@ -5,6 +5,7 @@
 #include "runtime/offscreen.h"
 #include "runtime/output_file.h"
 #include "tools/blush/options.h"
+#include "tools/blush/performing.h"
 
 namespace blush::tool {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 struct Options {
     std::string face, output, size = "960x960";
     PoseOptions pose;
+    PerformOptions perform;
     bool check_finite = false, force_effects = false;
     float yaw_degrees = 0, pitch_degrees = 0, exposure = 1;
 };
@@ -22,6 +24,14 @@ int render(const Options& options) {
     Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
     if (!stage) return fail(stage.error());
     Character& character = (*stage)->character;
+
+    std::optional<BloodFlow> blood;
+    if (Status performed = perform_moment(character.face(), character.rig(), options.perform, character.controls(),
+                                          character.pose(), [&](const BloodFlow& flow) { blood = flow; });
+        !performed) {
+        return fail(performed.error());
+    }
+    character.follow_blood(blood ? &*blood : nullptr);
 
     const std::string ending = std::filesystem::path(options.output).extension().string();
     const bool linear = ending == ".exr" || ending == ".hdr";
@@ -38,7 +48,7 @@ int render(const Options& options) {
     view.check_finite = options.check_finite;
     view.force_effects = options.force_effects;
 
-    if (const int found = report_not_finite(character.draw(view)); found != 0) return found;
+    if (const int found = report_not_finite(draw_alone(character, view)); found != 0) return found;
     if (Status written = write_image(options.output, offscreen->read()); !written) return fail(written.error());
     std::cout << options.output << ": " << options.size << (linear ? ", linear radiance\n" : ", sRGB\n");
     return 0;
@@ -51,6 +61,7 @@ void add_render(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand("render", "Draw one frame without a window");
     command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
     options->pose.add_to(*command);
+    options->perform.add_moment_to(*command);
     command->add_option("--size", options->size, "Width and height in pixels")->capture_default_str();
     command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left")
         ->check(number_from(-360, 360));

@@ -13,6 +13,7 @@
 #include "runtime/face_file.h"
 #include "runtime/offscreen.h"
 #include "runtime/output_file.h"
+#include "tools/blush/playback.h"
 #include "tools/blush/viewer_panel.h"
 #include "tools/blush/viewer_window.h"
 
@@ -43,7 +44,9 @@ public:
           device_(std::move(device)),
           character_(character),
           playback_(playback),
-          name_(fs::path(options.face).stem().string()) {
+          name_(fs::path(options.face).stem().string()),
+          performed_(playback.performer().timeline() ? playback.performer().timeline()->performance().name
+                                                     : fs::path(options.perform.script).stem().string()) {
         state_.clock = clock;
         state_.held_controls.resize(character.rig().control_names().size());
     }
@@ -75,6 +78,12 @@ public:
     }
 
 private:
+    /// The script's error, once; the face stays where it was, and the rest goes on.
+    void complain(const Error& error) {
+        if (error.message != complaint_) fail(error);
+        complaint_ = error.message;
+    }
+
     /// Nothing moves and the panel has settled, or there is nothing to draw into.
     bool idle() const {
         constexpr int frames_to_settle = 3;  // Dear ImGui answers an event over up to two frames
@@ -111,12 +120,17 @@ private:
 
     int frame() {
         const double start_seconds = glfwGetTime();
-        playback_.seek(static_cast<float>(state_.clock.time_seconds));
+        if (Status played = playback_.seek(state_.clock.time_seconds); !played) complain(played.error());
         apply_held(state_, character_.controls());
         const Size pixels = window_.pixels();
         if (pixels.width == 0 || pixels.height == 0) return 0;
 
-        const Place here = place(pixels);
+        Place here = place(pixels);
+        // A jump in time is a cut: the end of the loop, or a hand on the time line.
+        constexpr double longest_frame_seconds = 0.25;
+        const double passed_seconds = (state_.clock.time_seconds - drawn_time_seconds_) / state_.clock.speed;
+        here.view.cut = passed_seconds < 0 || passed_seconds > longest_frame_seconds;
+        drawn_time_seconds_ = state_.clock.time_seconds;
         const FrameReport& report = character_.draw(here.view);
         if (const int found = report_not_finite(report); found != 0) return found;
         panel_.draw({character_, report, frame_milliseconds_}, state_);
@@ -144,7 +158,7 @@ private:
         }
         View view = offscreen->view();
         view.camera = state_.camera.camera(aspect_of(size));
-        character_.draw(view);
+        draw_alone(character_, view);
         if (Status written = write_image(path, offscreen->read()); !written) {
             fail(written.error());
             return;
@@ -156,9 +170,12 @@ private:
     void set_title() {
         std::string speed = std::to_string(state_.clock.speed);
         speed.erase(speed.find_last_not_of("0.") + 1);
-        std::string title = "blush: " + name_ + ", " + playback_.performance().performance().name;
+        std::string title = "blush: " + name_ + ", " + performed_;
         if (state_.clock.speed != 1) title += ", x" + speed;
         if (!state_.clock.playing) title += ", paused";
+        if (const std::string_view words = playback_.performer().caption(); !words.empty()) {
+            title += ": \"" + std::string(words) + "\"";
+        }
         if (title != title_) window_.set_title(title);
         title_ = std::move(title);
     }
@@ -169,12 +186,35 @@ private:
     Device device_;
     Character& character_;
     Playback& playback_;
-    std::string name_, title_;
+    std::string name_, performed_, title_, complaint_;
     ViewerState state_;
     int frames_since_event_ = 0, frames_drawn_ = 0;
     Size last_drawn_;  // pixels
     float frame_milliseconds_ = 0;
+    double drawn_time_seconds_ = 0;
 };
+
+}  // namespace
+
+namespace {
+
+Result<PlaybackClock> clock_of(const Face& face, const RigDescription& description, const ViewerOptions& options) {
+    const Rig rig(face, description);
+    std::optional<BoundPerformance> timeline;
+    if (!options.performance.empty() || options.perform.script.empty()) {
+        Result<Performance> performance = find_performance(face, options.performance);
+        if (!performance) return performance.error();
+        timeline.emplace(*std::move(performance), rig);
+    }
+    Result<PerformerParts> parts = options.perform.parts(face, rig, {}, std::move(timeline));
+    if (!parts) return parts.error();
+    Performer performer(rig, *std::move(parts));
+    constexpr float endless_seconds = 600;  // somebody who only looks on has seen enough by then
+    const Result<float> duration = duration_of(performer, endless_seconds);
+    if (!duration) return duration.error();
+    return make_clock(options.from_seconds, options.to_seconds, std::max(*duration, options.to_seconds),
+                      options.frames_a_second);
+}
 
 }  // namespace
 
@@ -188,24 +228,28 @@ int run_viewer(const ViewerOptions& options) {
     // All input first: a bad file should not flash a window.
     Result<Face> face = load_face(face_path(options.face));
     if (!face) return fail(face.error());
-    Result<Performance> performance = find_performance(*face, options.performance);
-    if (!performance) return fail(performance.error());
-    const Result<PlaybackClock> clock =
-        make_clock(options.from_seconds, options.to_seconds, performance->duration_seconds, options.frames_a_second);
+    const Result<RigDescription> description = describe_rig(*face, options.pose);
+    if (!description) return fail(description.error());
+    const Result<PlaybackClock> clock = clock_of(*face, *description, options);
     if (!clock) return fail(clock.error());
 
     Result<std::unique_ptr<Window>> window = Window::open("blush");
     if (!window) return fail(window.error());
     Result<Device> device = Device::adopt_current();
     if (!device) return fail(device.error());
-    Result<Character> character = Character::create(*device, *std::move(face));
+    Result<Character> character = Character::create(*device, *std::move(face), *description);
     if (!character) return fail(character.error());
     if (Status set = options.pose.apply(character->face(), character->rig(), character->controls()); !set) {
         return fail(set.error());
     }
     if (Status set = options.pose.apply_settings(*character); !set) return fail(set.error());
-    Playback playback(*character, BoundPerformance(*std::move(performance), character->rig()));
-    report_matches(playback.performance(), character->face());
+    const Result<std::optional<BoundPerformance>> timeline =
+        find_timeline(character->face(), character->rig(), options.performance, options.perform);
+    if (!timeline) return fail(timeline.error());
+    Result<PerformerParts> parts =
+        options.perform.parts(character->face(), character->rig(), character->controls(), *timeline);
+    if (!parts) return fail(parts.error());
+    Playback playback(*character, *std::move(parts));
     Result<std::unique_ptr<Panel>> panel = Panel::create((*window)->handle(), (*window)->text_scale());
     if (!panel) return fail(panel.error());
     return Viewer(options, **window, **panel, *device, *character, playback, *clock).run();

@@ -2,7 +2,7 @@
 /// The window of `blush play`: orbit, zoom, pause, scrub, step, speed, screenshot.
 
 #include "tools/blush/options.h"
-#include "tools/blush/playback.h"
+#include "tools/blush/performing.h"
 
 namespace blush::tool {
 
@@ -10,6 +10,7 @@ struct ViewerOptions {
     std::string face;
     std::string performance;  ///< as find_performance() takes it
     PoseOptions pose;
+    PerformOptions perform;
     std::uint32_t width = 960, height = 960;  ///< of the picture beside the panel, window coordinates
     float from_seconds = 0;
     float to_seconds = -1;        ///< negative: to the end

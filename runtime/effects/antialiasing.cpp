@@ -1,0 +1,287 @@
+/// The morphological filters on each picture of a frame: MLAA (jimenez-2012, chapter 9) and SMAA (chapter 10).
+///
+/// The filter stands after the filmic curve: what is an edge to a viewer is one in display values. Of a view that asks
+/// for radiance, edges are found in display values all the same, and radiance is blended with the weights found.
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+#include "runtime/antialias/antialias_passes.h"
+#include "runtime/antialias/last_frame.h"
+#include "runtime/antialias/pictures.h"
+#include "runtime/effects/antialiasing_study.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<std::string_view, 3> edge_choices = {"luma", "color", "depth"};
+constexpr std::array<std::string_view, 2> predication_choices = {"off", "on"};
+constexpr double of_preset = -1;
+
+constexpr std::array<Setting, 12> settings = {{
+    {"mode",
+     "view: multisampling with View::samples; none: one sample a pixel; msaa2, msaa4: multisampling; mlaa: the filter "
+     "of "
+     "2011; smaa_1x: SMAA's filter; smaa_s2x: on two pictures a frame; smaa_t2x: on pictures of two places in turn; "
+     "smaa_4x: both; supersampled: the mean of supersampling.factor squared pictures",
+     antialiasing_modes, static_cast<std::uint8_t>(AntialiasingMode::view)},
+    {"preset", "low, medium, high, ultra: SMAA's thresholds and reaches", smaa_preset_names,
+     static_cast<std::uint8_t>(SmaaPreset::high)},
+    {"edges", "luma, color: of display values; depth: silhouettes alone", edge_choices,
+     static_cast<std::uint8_t>(EdgeSource::luma)},
+    {.name = "threshold",
+     .meaning = "contrast of an edge, of 1; -1: the preset's",
+     .lowest = of_preset,
+     .highest = 0.5,
+     .default_number = of_preset},
+    {.name = "contrast_factor",
+     .meaning = "an edge needs this share of the greatest contrast beside it; 0 of MLAA; -1: the preset's",
+     .lowest = of_preset,
+     .highest = 1,
+     .default_number = of_preset},
+    {.name = "search_steps",
+     .meaning = "reach along a line, in steps of two pixels; -1: the preset's",
+     .lowest = of_preset,
+     .highest = largest_search_steps,
+     .default_number = of_preset},
+    {.name = "diagonal_search_steps",
+     .meaning = "reach along a diagonal, pixels, 0 for no diagonals; -1: the preset's",
+     .lowest = of_preset,
+     .highest = largest_diagonal_search_steps,
+     .default_number = of_preset},
+    {.name = "corner_rounding",
+     .meaning = "how much a sharp corner is rounded, of 1; -1: the preset's",
+     .lowest = of_preset,
+     .highest = 1,
+     .default_number = of_preset},
+    {.name = "depth_threshold",
+     .meaning = "difference of window depth that is an edge, for edges=depth and predication",
+     .lowest = 0,
+     .highest = 1,
+     .default_number = static_cast<double>(EdgeSettings{}.depth_threshold)},
+    {"predication", "off: one threshold; on: a lower one on silhouettes and a higher one elsewhere",
+     predication_choices, 0},
+    {.name = "predication_scale",
+     .meaning = "factor on the threshold under predication",
+     .lowest = 1,
+     .highest = 5,
+     .default_number = static_cast<double>(Predication{}.scale)},
+    {.name = "predication_strength",
+     .meaning = "share by which a silhouette lowers the threshold",
+     .lowest = 0,
+     .highest = 1,
+     .default_number = static_cast<double>(Predication{}.strength)},
+}};
+
+struct Antialiasing {
+    std::optional<AntialiasPasses> passes;
+    EdgeTiles tiles;
+    SmaaSettings smaa;
+    MlaaSettings mlaa;
+    SubsampleSlices slices{0};
+    struct Blend {
+        ResourceId image{}, weights{}, to{};
+    };
+    Blend colors, speeds;
+};
+
+/// Display values, or radiance.
+PictureMeaning meaning_of(Output output) {
+    return {.transfer = output == Output::display_srgb ? Transfer::srgb : Transfer::linear};
+}
+
+float number_or(const EffectSettings& all, std::string_view name, float preset) {
+    const double value = all.number("antialiasing", name);
+    return value < 0 ? preset : static_cast<float>(value);
+}
+int steps_or(const EffectSettings& all, std::string_view name, int least, int most, int preset) {
+    const double value = all.number("antialiasing", name);
+    return value < 0 ? preset : std::clamp(static_cast<int>(std::lround(value)), least, most);
+}
+
+EdgeSettings edge_settings(const EffectSettings& all, EdgeSettings preset) {
+    preset.source = static_cast<EdgeSource>(all.choice("antialiasing", "edges"));
+    preset.threshold = number_or(all, "threshold", preset.threshold);
+    preset.contrast_factor = number_or(all, "contrast_factor", preset.contrast_factor);
+    preset.depth_threshold = number_or(all, "depth_threshold", preset.depth_threshold);
+    preset.predication.on = all.choice("antialiasing", "predication") != 0;
+    preset.predication.depth_threshold = preset.depth_threshold;
+    preset.predication.scale = number_or(all, "predication_scale", preset.predication.scale);
+    preset.predication.strength = number_or(all, "predication_strength", preset.predication.strength);
+    return preset;
+}
+
+void find_settings(CharacterState& state, Antialiasing& own) {
+    const EffectSettings& all = state.settings;
+    own.smaa = smaa_preset(static_cast<SmaaPreset>(all.choice("antialiasing", "preset")));
+    own.smaa.edges = edge_settings(all, own.smaa.edges);
+    own.smaa.search_steps = steps_or(all, "search_steps", 1, largest_search_steps, own.smaa.search_steps);
+    own.smaa.diagonal_search_steps =
+        steps_or(all, "diagonal_search_steps", 0, largest_diagonal_search_steps, own.smaa.diagonal_search_steps);
+    own.smaa.corner_rounding = number_or(all, "corner_rounding", own.smaa.corner_rounding);
+    own.mlaa = {};
+    own.mlaa.edges = edge_settings(all, own.mlaa.edges);
+    own.mlaa.search_steps = steps_or(all, "search_steps", 1, largest_mlaa_search_steps, own.mlaa.search_steps);
+    // Rows of a frame's textures count upwards, as the offsets do.
+    const std::uint32_t phase = state.own<LastFrame>().phase;
+    own.slices = subsample_slices(state.sampling.sample_offset_pixels(state.picture, phase));
+}
+
+Need need(const CharacterState& state) {
+    if (!state.sampling.filtered) {
+        return {.on = false,
+                .reason = !state.facts.has_triangles ? "the face has nothing to draw, so that the picture has no edges"
+                                                     : "antialiasing.mode asks for no filter",
+                .can_be_forced = false};
+    }
+    return {.on = true, .reason = "antialiasing.mode asks for a filter"};
+}
+
+PassTarget target_of(CharacterState& state, const FrameGraph& graph, ResourceId image) {
+    bind_output(state, graph, image);
+    const FrameResource& resource = graph[image];
+    const bool texture = resource.kind == ResourceKind::texture;
+    return {texture ? state.output_framebuffer.name() : resource.handle, resource.shape.width, resource.shape.height};
+}
+
+const AntialiasPasses& passes_of(CharacterState& state) {
+    std::optional<AntialiasPasses>& passes = state.own<Antialiasing>().passes;
+    if (passes) return *passes;
+    Result<AntialiasPasses> made = AntialiasPasses::create();
+    if (!made) {  // as gl::require_program()
+        std::fprintf(stderr, "blush: %s\n", made.error().message.c_str());
+        std::abort();
+    }
+    passes = *std::move(made);
+    return *passes;
+}
+
+ResourceId declare_edges(CharacterState& state, ResourceId guide) {
+    TextureShape shape{PixelFormat::rg8, state.view->width, state.view->height, 1};
+    const ResourceId edges = state.graph.texture("edges", shape);
+    const auto find = [&state, guide, edges](const FrameGraph& graph) {
+        Antialiasing& own = state.own<Antialiasing>();
+        const bool mlaa = state.sampling.mode == AntialiasingMode::mlaa;
+        passes_of(state).edges(graph[guide].handle, graph[state.resources.scene_depth].handle,
+                               mlaa ? own.mlaa.edges : own.smaa.edges, meaning_of(Output::display_srgb), own.tiles,
+                               target_of(state, graph, edges));
+    };
+    state.graph.pass("find edges", find).reads(guide).reads(state.resources.scene_depth).writes(edges);
+    return edges;
+}
+
+ResourceId declare_weights(CharacterState& state, ResourceId edges) {
+    TextureShape shape{PixelFormat::rgba8, state.view->width, state.view->height, 1};
+    const ResourceId weights = state.graph.texture("blending weights", shape);
+    const auto weigh = [&state, edges, weights](const FrameGraph& graph) {
+        const Antialiasing& own = state.own<Antialiasing>();
+        const PassTarget target = target_of(state, graph, weights);
+        if (state.sampling.mode == AntialiasingMode::mlaa) {
+            passes_of(state).mlaa_weights(graph[edges].handle, own.mlaa, own.tiles, target);
+        } else {
+            passes_of(state).smaa_weights(graph[edges].handle, own.smaa, own.slices, own.tiles, target);
+        }
+    };
+    state.graph.pass("weigh edges", weigh).reads(edges).writes(weights);
+    return weights;
+}
+
+void blend_pass(CharacterState& state, const FrameGraph& graph, const Antialiasing::Blend& blend,
+                const PictureMeaning& meaning) {
+    passes_of(state).blend(graph[blend.image].handle, graph[blend.weights].handle, meaning,
+                           state.own<Antialiasing>().tiles, target_of(state, graph, blend.to));
+}
+
+/// Speeds go through the filter as the colours do, so that a blended pixel moves as what it was blended from
+/// (jimenez-2012, 10.4.4; there in the alpha channel, for nothing; here beside it, since alpha is the host's).
+void declare_speeds(CharacterState& state, ResourceId weights) {
+    const TextureShape shape{PixelFormat::r16f, state.view->width, state.view->height, 1};
+    const bool first_of_two = state.picture + 1 < state.sampling.pictures;
+    const ResourceId from = state.resources.velocities;
+    const ResourceId to = first_of_two                   ? first_speeds_store(state, shape, state.graph)
+                          : state.sampling.pictures == 1 ? import_kept_speeds(state)
+                                                         : state.graph.texture("speeds", shape);
+    state.own<Antialiasing>().speeds = {from, weights, to};
+    const auto blend = [&state](const FrameGraph& graph) {
+        blend_pass(state, graph, state.own<Antialiasing>().speeds, meaning_of(Output::linear_hdr));
+    };
+    state.graph.pass("blend speeds", blend).reads(from).reads(weights).writes(to);
+    state.resources.speeds = to;
+    if (first_of_two) state.graph.present(to);
+}
+
+void declare(CharacterState& state) {
+    Antialiasing& own = state.own<Antialiasing>();
+    find_settings(state, own);
+    const DisplayImages images = next_display(state);
+    ResourceId guide = images.from;
+    if (state.view->output == Output::linear_hdr) {
+        guide = state.graph.texture("display values", {PixelFormat::rgba8, state.view->width, state.view->height, 1});
+        declare_tone(state, guide);
+    }
+    const ResourceId weights = declare_weights(state, declare_edges(state, guide));
+    own.colors = {images.from, weights, images.to};
+    const auto blend = [&state](const FrameGraph& graph) {
+        blend_pass(state, graph, state.own<Antialiasing>().colors, meaning_of(state.view->output));
+    };
+    state.graph.pass("blend neighbours", blend).reads(images.from).reads(weights).writes(images.to);
+    if (state.on(velocities_effect)) declare_speeds(state, weights);
+}
+
+constexpr StudiedMode preset(std::string_view label, std::string_view choice) {
+    return {.label = label,
+            .work = "one sample, filtered",
+            .mode = "smaa_1x",
+            .setting = "antialiasing.preset",
+            .choice = choice};
+}
+
+constexpr std::array<StudiedMode, 11> studied = {{
+    {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
+    {.label = "antialiasing.mode=msaa4", .work = "4 samples", .mode = "msaa4", .is_default = true},
+    {.label = "antialiasing.mode=mlaa", .work = "one sample, filtered", .mode = "mlaa"},
+    preset("smaa_1x, preset low", "low"),
+    preset("smaa_1x, preset medium", "medium"),
+    preset("smaa_1x, preset high", "high"),
+    preset("smaa_1x, preset ultra", "ultra"),
+    {.label = "antialiasing.mode=smaa_s2x", .work = "two pictures, filtered", .mode = "smaa_s2x"},
+    {.label = "antialiasing.mode=smaa_t2x", .work = "two frames, filtered", .mode = "smaa_t2x", .frames = 2},
+    {.label = "antialiasing.mode=smaa_4x",
+     .work = "two frames of two pictures, filtered",
+     .mode = "smaa_4x",
+     .frames = 2},
+    {.label = "antialiasing.mode=supersampled", .work = "16 pictures", .mode = "supersampled"},
+}};
+
+std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
+    return antialiasing_studies(device, face, studied);
+}
+
+/// Whatever the settings under test, through the filter with all that it has.
+constexpr std::array<HardCase, 2> hard_cases = {{
+    {"light beyond half precision behind the face", "edges and weights stay in range", [](Face&) {}, 1,
+     [](View& view) {
+         view.background_linear = {60000, 60000, 60000, 1};
+     }},
+    {"a picture of one pixel", "no neighbour is read that is not there", [](Face&) {}, 1,
+     [](View& view) { view.width = view.height = 1; }},
+}};
+
+}  // namespace
+
+const Effect antialiasing_effect = {
+    .name = "antialiasing",
+    .what = "edges of the picture are found and smoothed",
+    .settings = settings,
+    .stage = Stage::filter,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

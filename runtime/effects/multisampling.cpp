@@ -1,0 +1,115 @@
+/// Multisampling: several samples of coverage and depth a pixel, shaded once, and their resolve.
+
+#include <array>
+
+#include "runtime/effects/antialiasing_study.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<std::string_view, 2> resolve_choices = {"average", "hdr"};
+enum class Resolve : std::uint8_t { average, hdr };
+
+constexpr std::array<Setting, 1> settings = {{
+    {"resolve",
+     "average: the mean radiance of a pixel's samples; hdr: bright samples weigh less, so that edges of highlights are "
+     "smooth once shown",
+     resolve_choices, static_cast<std::uint8_t>(Resolve::average)},
+}};
+
+struct Multisampling {
+    gl::Program program;
+};
+
+Resolve resolve_of(const CharacterState& state) {
+    return static_cast<Resolve>(state.settings.choice("multisampling", "resolve"));
+}
+
+Need need(const CharacterState& state) {
+    if (state.sampling.samples == 1) {
+        return {
+            .on = false,
+            .reason = state.facts.has_triangles ? "one sample a pixel is asked for" : "the face has nothing to draw",
+            .can_be_forced = false};
+    }
+    return {.on = true, .reason = "several samples a pixel are asked for"};
+}
+
+void blit(CharacterState& state, const FrameGraph& graph, ResourceId from, ResourceId to) {
+    const auto width = static_cast<GLint>(state.view->width), height = static_cast<GLint>(state.view->height);
+    glNamedFramebufferTexture(state.output_framebuffer.name(), GL_COLOR_ATTACHMENT0, graph[from].handle, 0);
+    glNamedFramebufferTexture(state.resolved_framebuffer.name(), GL_COLOR_ATTACHMENT0, graph[to].handle, 0);
+    glBlitNamedFramebuffer(state.output_framebuffer.name(), state.resolved_framebuffer.name(), 0, 0, width, height, 0,
+                           0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void weigh(CharacterState& state, const FrameGraph& graph, ResourceId from, ResourceId to) {
+    const Multisampling& own = state.own<Multisampling>();
+    bind_output(state, graph, to);
+    glUseProgram(own.program.name());
+    glBindTextureUnit(0, graph[state.resources.scene_color_multisampled].handle);
+    glBindTextureUnit(1, graph[from].handle);
+    glUniform1f(0, state.view->exposure);
+    draw_screen(state);
+}
+
+void declare_one(CharacterState& state, ResourceId from, ResourceId to) {
+    const auto resolve = [&state, from, to](const FrameGraph& graph) {
+        if (resolve_of(state) == Resolve::average) {
+            blit(state, graph, from, to);
+        } else {
+            weigh(state, graph, from, to);
+        }
+    };
+    state.graph.pass("resolve", resolve).reads(state.resources.scene_color_multisampled).reads(from).writes(to);
+}
+
+void declare(CharacterState& state) {
+    Multisampling& own = state.own<Multisampling>();
+    if (resolve_of(state) == Resolve::hdr) gl::require_program(own.program, {"screen.vert", "resolve.frag"});
+    const FrameResources& resources = state.resources;
+    for (std::size_t i = 0; i < resources.resolve_count; ++i) {
+        declare_one(state, resources.to_resolve[i].from, resources.to_resolve[i].to);
+    }
+}
+
+/// The settings of the study of antialiasing compare both ways to resolve with everything else.
+std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
+    constexpr std::array<StudiedMode, 3> modes = {{
+        {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
+        {.label = "multisampling.resolve=average", .work = "4 samples", .mode = "msaa4", .is_default = true},
+        {.label = "multisampling.resolve=hdr",
+         .work = "4 samples",
+         .mode = "msaa4",
+         .setting = "multisampling.resolve",
+         .choice = "hdr"},
+    }};
+    return antialiasing_studies(device, face, modes);
+}
+
+constexpr std::array<HardCase, 2> hard_cases = {{
+    {"light beyond half precision behind the face", "the resolve stays finite", [](Face&) {}, 1,
+     [](View& view) {
+         view.background_linear = {60000, 60000, 60000, 1};
+     }},
+    {"negative radiance behind the face", "weights stay between 0 and 1", [](Face&) {}, 1,
+     [](View& view) {
+         view.background_linear = {-5, 0, 0, 1};
+     }},
+}};
+
+}  // namespace
+
+const Effect multisampling_effect = {
+    .name = "multisampling",
+    .what = "several samples of coverage a pixel",
+    .settings = settings,
+    .stage = Stage::resolve,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

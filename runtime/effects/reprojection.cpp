@@ -1,0 +1,108 @@
+/// The frame before, moved along the velocities, is blended into this one (jimenez-2012, 10.4.4): the second half of
+/// T2x and 4x. What is blended in is that frame as it was before its own blend, so that nothing stays longer than a
+/// frame.
+
+#include <array>
+
+#include "runtime/antialias/last_frame.h"
+#include "runtime/effects/antialiasing_study.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<Setting, 1> settings = {{
+    {.name = "falloff",
+     .meaning =
+         "K of equation 10.6: how fast the last frame's share falls where speeds differ, for speeds in pictures a "
+         "frame; 0 blends everywhere and leaves ghosts",
+     .lowest = 0,
+     .highest = 1000,
+     .default_number = 30},  // jimenez-2012, 10.4.4: "a value of 30 for all our examples"
+}};
+
+struct Reprojection {
+    gl::Program program;
+};
+
+Need need(const CharacterState& state) {
+    const auto off = [](std::string_view reason) {
+        return Need{.on = false, .reason = reason, .can_be_forced = false};
+    };
+    const auto mode = static_cast<AntialiasingMode>(state.settings.choice("antialiasing", "mode"));
+    const bool asked = mode == AntialiasingMode::smaa_t2x || mode == AntialiasingMode::smaa_4x;
+    if (!asked) return off("antialiasing.mode takes nothing from the last frame");
+    if (!state.facts.has_triangles) return off("the face has nothing to draw");
+    if (!state.sampling.temporal) {
+        return off("there are no velocities (velocities.source=none): every frame stands alone");
+    }
+    if (!state.facts.has_last_frame)
+        return off("there is no last frame of this size and mode: it is the first, or a cut");
+    return {.on = true, .reason = "antialiasing.mode takes half of its samples from the last frame"};
+}
+
+void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, ResourceId to) {
+    const LastFrame& last = state.own<LastFrame>();
+    const KeptImage& before = last.images[1 - last.phase];
+    const bool moves = state.on(velocities_effect);
+    bind_output(state, graph, to);
+    glUseProgram(state.own<Reprojection>().program.name());
+    glBindTextureUnit(0, graph[from].handle);
+    glBindTextureUnit(1, before.color.name());
+    // Never a name of 0, which would clear the unit's other targets, and they are the host's.
+    if (moves) {
+        glBindTextureUnit(2, graph[state.resources.velocities].handle);
+        glBindTextureUnit(3, graph[state.resources.speeds].handle);
+    }
+    if (before.has_speeds) glBindTextureUnit(4, before.speeds.name());
+    glUniform1f(0, static_cast<float>(state.settings.number("reprojection", "falloff")));
+    glUniform1i(1, state.view->output == Output::display_srgb ? 1 : 0);
+    glUniform1i(2, moves ? 1 : 0);
+    glUniform1i(3, before.has_speeds ? 1 : 0);
+    draw_screen(state);
+}
+
+void declare(CharacterState& state) {
+    gl::require_program(state.own<Reprojection>().program, {"screen.vert", "reproject.frag"});
+    const DisplayImages images = next_display(state);
+    const auto pass = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
+        reproject(state, graph, from, to);
+    };
+    state.graph.pass("reproject", pass).reads(images.from).writes(images.to);
+    if (state.on(velocities_effect)) state.graph.reads(state.resources.velocities).reads(state.resources.speeds);
+}
+
+std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
+    constexpr std::array<StudiedMode, 3> modes = {{
+        {.label = "antialiasing.mode=smaa_1x", .work = "one frame alone", .mode = "smaa_1x"},
+        {.label = "antialiasing.mode=smaa_t2x",
+         .work = "two frames",
+         .mode = "smaa_t2x",
+         .frames = 2,
+         .is_default = true},
+        {.label = "antialiasing.mode=smaa_4x", .work = "two frames of two pictures", .mode = "smaa_4x", .frames = 2},
+    }};
+    return antialiasing_studies(device, face, modes);
+}
+
+constexpr std::array<HardCase, 1> hard_cases = {{
+    {"a face that is not there", "the background, frame after frame",
+     [](Face& face) {
+         for (Primitive& primitive : face.primitives) primitive.index_count = 0;
+     }},
+}};
+
+}  // namespace
+
+const Effect reprojection_effect = {
+    .name = "reprojection",
+    .what = "the last frame's samples are moved along and blended in",
+    .settings = settings,
+    .stage = Stage::history,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

@@ -1,0 +1,104 @@
+/// Several pictures of one frame, each drawn whole from its own place in the pixel, and their mean.
+///
+/// Not one picture of many times the size: each picture is what the frame would be with one sample a pixel, so that
+/// what works in pixels (scattering, morphological filters) does there what it does in the modes that are compared with
+/// it; memory does not grow with the number of pictures; and no device is too small for it.
+
+#include <array>
+
+#include "runtime/antialias/last_frame.h"
+#include "runtime/antialias/pictures.h"
+#include "runtime/effects/antialiasing_study.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+// 16: 256 pictures, an error of coverage of 1/512 at most along an axis-parallel edge, half a step of 8 bits.
+constexpr std::array<Setting, 1> settings = {{
+    {.name = "factor",
+     .meaning = "pictures along each side of the pixel, in antialiasing.mode=supersampled: 8 draws 64",
+     .lowest = 1,
+     .highest = 16,
+     .default_number = 4},
+}};
+
+struct Supersampling {
+    gl::Program program;
+};
+
+Need need(const CharacterState& state) {
+    if (state.sampling.pictures == 1) {
+        return {
+            .on = false,
+            .reason = state.facts.has_triangles ? "one picture a frame is asked for" : "the face has nothing to draw",
+            .can_be_forced = false};
+    }
+    return {.on = true, .reason = "several pictures a frame are asked for"};
+}
+
+void average(CharacterState& state, GLuint mean_so_far, GLuint picture, glm::bvec2 encoded) {
+    glUseProgram(state.own<Supersampling>().program.name());
+    glBindTextureUnit(0, mean_so_far);
+    glBindTextureUnit(1, picture);
+    glUniform1f(0, 1.0F / static_cast<float>(state.picture + 1));
+    glUniform2i(1, encoded.x ? 1 : 0, encoded.y ? 1 : 0);
+    draw_screen(state);
+}
+
+void declare(CharacterState& state) {
+    gl::require_program(state.own<Supersampling>().program, {"screen.vert", "average.frag"});
+    const DisplayImages images = next_display(state);
+    const auto mean = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
+        const bool encoded = state.view->output == Output::display_srgb;
+        const bool last = state.picture + 1 == state.sampling.pictures;
+        bind_output(state, graph, to);
+        average(state, pictures_so_far(state), graph[from].handle, {encoded, encoded && last});
+    };
+    state.graph.pass("average pictures", mean).reads(images.from).writes(images.to);
+    if (!state.on(velocities_effect)) return;
+
+    // Speeds are filtered like colours (jimenez-2012, 10.4.4), so they are averaged like them.
+    const ResourceId from = state.resources.speeds, to = import_kept_speeds(state);
+    const auto mean_speed = [&state, from, to](const FrameGraph& graph) {
+        bind_output(state, graph, to);
+        average(state, state.own<Pictures>().first_speeds.name(), graph[from].handle, glm::bvec2(false));
+    };
+    state.graph.pass("average speeds", mean_speed).reads(from).writes(to);
+    state.resources.speeds = to;
+}
+
+std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
+    constexpr std::array<StudiedMode, 3> modes = {{
+        {.label = "antialiasing.mode=none", .work = "1 picture", .mode = "none"},
+        {.label = "supersampling.factor=2",
+         .work = "4 pictures",
+         .mode = "supersampled",
+         .setting = "supersampling.factor",
+         .choice = "2"},
+        {.label = "supersampling.factor=4", .work = "16 pictures", .mode = "supersampled", .is_default = true},
+    }};
+    return antialiasing_studies(device, face, modes);
+}
+
+constexpr std::array<HardCase, 1> hard_cases = {{
+    {"a face that is not there", "every picture is the background, and so is their mean",
+     [](Face& face) {
+         for (Primitive& primitive : face.primitives) primitive.index_count = 0;
+     }},
+}};
+
+}  // namespace
+
+const Effect supersampling_effect = {
+    .name = "supersampling",
+    .what = "several pictures a frame are averaged",
+    .settings = settings,
+    .stage = Stage::average,
+    .need = need,
+    .declare = declare,
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

@@ -1,0 +1,61 @@
+// The frame before, moved along the velocities, is blended into this one: jimenez-2012, 10.4.4.
+#include "srgb.glsl"
+
+layout(binding = 0) uniform sampler2D image;       // both are decoded by their texture where they are sRGB:
+layout(binding = 1) uniform sampler2D last_image;  // they are blended in linear light
+layout(binding = 2) uniform sampler2D velocities;   // speed, x, y; of this frame
+layout(binding = 3) uniform sampler2D speeds;       // filtered along with the image
+layout(binding = 4) uniform sampler2D last_speeds;  // filtered along with last_image
+layout(location = 0) uniform float falloff;         // K of equation 10.6
+layout(location = 1) uniform bool encoded;          // the result is to be sRGB
+layout(location = 2) uniform bool moves;            // false: every velocity and speed of this frame is zero
+layout(location = 3) uniform bool moved;            // the same of the last frame
+layout(location = 0) out vec4 result;
+
+vec4 fetch(sampler2D from, ivec2 pixel) {
+    return texelFetch(from, clamp(pixel, ivec2(0), textureSize(from, 0) - 1), 0);
+}
+
+// Bilinear by hand: bit for bit the texel itself where nothing moves.
+struct Taps {
+    ivec2 pixel;  // lower left of the four
+    vec2 share;   // of the right and the upper two
+};
+Taps taps_at(vec2 position_pixels) {
+    vec2 corner = floor(position_pixels - 0.5);
+    return Taps(ivec2(corner), position_pixels - 0.5 - corner);
+}
+vec4 blended(vec4 a, vec4 b, float share) { return share == 0.0 ? a : (1.0 - share) * a + share * b; }
+
+vec4 last_color(Taps t) {
+    if (t.share == vec2(0.0)) return fetch(last_image, t.pixel);
+    vec4 lower = blended(fetch(last_image, t.pixel), fetch(last_image, t.pixel + ivec2(1, 0)), t.share.x);
+    vec4 upper = blended(fetch(last_image, t.pixel + ivec2(0, 1)), fetch(last_image, t.pixel + ivec2(1, 1)), t.share.x);
+    return blended(lower, upper, t.share.y);
+}
+float last_speed(Taps t) {
+    if (!moved) return 0.0;
+    ivec2 most = textureSize(last_speeds, 0) - 1;
+    float s[4];
+    for (int i = 0; i < 4; ++i) {
+        s[i] = texelFetch(last_speeds, clamp(t.pixel + ivec2(i & 1, i >> 1), ivec2(0), most), 0).r;
+    }
+    return mix(mix(s[0], s[1], t.share.x), mix(s[2], s[3], t.share.x), t.share.y);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec2 size = vec2(textureSize(image, 0));
+    vec2 velocity = moves ? texelFetch(velocities, pixel, 0).yz : vec2(0.0);
+    float speed = moves ? texelFetch(speeds, pixel, 0).r : 0.0;
+
+    vec2 position = gl_FragCoord.xy - velocity * size;
+    bool on_screen = all(greaterThanEqual(position, vec2(0.0))) && all(lessThanEqual(position, size));
+    Taps taps = taps_at(on_screen ? position : gl_FragCoord.xy);
+    // Equation 10.6. Of the root's argument the size counts: a speed that fell disoccludes as one that rose.
+    float weight = 0.5 * max(0.0, 1.0 - falloff * sqrt(abs(speed - last_speed(taps))));
+    if (!on_screen) weight = 0.0;
+    // Equation 10.7.
+    vec4 color = (1.0 - weight) * fetch(image, pixel) + weight * last_color(taps);
+    result = encoded ? vec4(srgb_from_linear(color.rgb), color.a) : color;
+}

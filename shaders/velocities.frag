@@ -1,0 +1,24 @@
+// Velocity of a pixel in widths and heights of the picture a frame: how far its surface moved since the last frame.
+#include "shared.glsl"
+
+in vec4 clip;
+in vec4 last_clip;
+#ifdef ALPHA_TEST
+in vec2 base_color_uv;
+layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
+#endif
+
+layout(location = 0) out vec4 speed_velocity;  // length, x, y
+
+void main() {
+#ifdef ALPHA_TEST
+    if (base_color_linear.a * texture(base_color_map, base_color_uv).a < alpha.x) discard;
+#endif
+    // What was behind the camera was not on the screen: as far away as a velocity can say, four screens. The clamp keeps
+    // half floats finite.
+    vec2 velocity = vec2(4.0);
+    if (last_clip.w > 1e-6 && clip.w > 1e-6) {
+        velocity = clamp(0.5 * (clip.xy / clip.w - last_clip.xy / last_clip.w), vec2(-4.0), vec2(4.0));
+    }
+    speed_velocity = vec4(length(velocity), velocity, 0.0);
+}
