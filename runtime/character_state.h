@@ -1,6 +1,7 @@
 #pragma once
 /// What a Character holds: the inside that effects, passes and the frame share.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 #include "runtime/finite_check.h"
 #include "runtime/frame_graph.h"
 #include "runtime/frame_report.h"
+#include "runtime/gl/shared_blocks.h"
 #include "runtime/gl/texture_pool.h"
 #include "runtime/gl/timers.h"
 #include "runtime/stream_out.h"
@@ -30,7 +32,19 @@ struct SceneFacts {
     bool any_turned_normals = false;          ///< some target of the face does
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
+    bool has_skin = false;            ///< the face has a material that is skin
+    bool skin_on_screen = false;      ///< it may be seen; false only where it cannot be
+    double skin_pixels_a_mm = 0;      ///< on the screen, at the nearest place where skin may be
+    bool surface_moved = false;       ///< since the shadow maps were drawn
+    std::uint32_t lights = 0;         ///< that are not dark
+    std::uint32_t shadow_lights = 0;  ///< of those, how many may cast shadows
     bool forced = false;
+};
+
+/// A primitive that is skin, as a node draws it.
+struct SkinPart {
+    std::size_t node = 0;
+    Bounds bounds;  ///< in its mesh, at rest
 };
 
 /// Resources of the frame that passes hand on to one another.
@@ -38,6 +52,15 @@ struct FrameResources {
     ResourceId positions{}, normals{}, tangents{};                          ///< the surface as far as it has come
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
+    /// Light that scatters, the albedo that it leaves by, its depth, each times the skin's matte; with scattering only.
+    ResourceId skin_light{}, skin_albedo{}, skin_depth{};
+    ResourceId shadow_maps{};
+    /// Multisampled images that shading writes and what they become, one sample a pixel.
+    struct Resolved {
+        ResourceId from{}, to{};
+    };
+    std::array<Resolved, 6> to_resolve{};
+    std::size_t resolve_count = 0;
     ResourceId display{};  ///< the display image as far as it has come
     ResourceId target{};   ///< the view's framebuffer
 };
@@ -63,6 +86,10 @@ struct CharacterState {
     std::vector<std::uint8_t> target_moves_normals;         // of each target, for any primitive that it moves
 
     // The pose that the deformed buffers hold.
+    std::vector<bool> skin_material;   // of each material and, last, the default one
+    std::vector<SkinPart> skin_parts;  // by node
+    std::vector<float> target_reach;   // of each target: its longest move of skin at weight 1, mesh units
+    double millimetres_a_unit = 1;
     std::vector<ActiveTarget> active, deformed_active;
     NormalMethod normal_method = NormalMethod::authored;
     EffectSettings deformed_settings;
@@ -75,7 +102,12 @@ struct CharacterState {
     const SurfaceBuffers* skin_source = nullptr;
     FrameGraph graph;
     FrameResources resources;
-    std::uint32_t display_effects_left = 0;  // of those that are on, how many have yet to declare themselves
+    std::uint32_t display_effects_left = 0;    // of those that are on, how many have yet to declare themselves
+    std::vector<LightSource> lights;           // that are not dark
+    std::vector<shared::Light> shader_lights;  // the same, with their shadow maps where they have one
+    bool shadows_shown = false, translucency_shown = false;
+    const Lighting* lighting = nullptr;  // the view's, or portrait
+    Lighting portrait;
     std::vector<glm::mat4> world_from_node, skinned_from_mesh;
     gl::Program tone_program;
     gl::Framebuffer scene_framebuffer, resolved_framebuffer, output_framebuffer;

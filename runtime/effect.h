@@ -97,5 +97,6 @@ struct Effect {
 std::span<const Effect* const> effects();
 
 extern const Effect deformation_effect, normals_effect, skinning_effect;
+extern const Effect shadows_effect, translucency_effect, reflection_effect, environment_effect, scattering_effect;
 
 }  // namespace blush

@@ -51,6 +51,7 @@ std::optional<NotFinite> FiniteCheck::scan_buffer(const FrameResource& resource)
 
 std::optional<NotFinite> FiniteCheck::scan_texture(const FrameResource& resource) {
     const TextureShape& shape = resource.shape;
+    if (shape.format == PixelFormat::stencil8) return std::nullopt;  // whole numbers
     const bool depth = gl::has_depth(shape.format);
     const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
     if (!read_framebuffer_) {
@@ -70,7 +71,7 @@ std::optional<NotFinite> FiniteCheck::scan_texture(const FrameResource& resource
         // The average of samples with one bad among them is bad.
         TextureShape single = shape;
         single.samples = 1;
-        if (resolved_shape_ != single) {
+        if (!resolved_ || resolved_shape_ != single) {
             resolved_ = gl::make_texture(GL_TEXTURE_2D);
             glTextureStorage2D(resolved_.name(), 1, gl::internal_format(shape.format), width, height);
             resolved_shape_ = single;

@@ -4,6 +4,9 @@
 #include <cassert>
 
 #include "runtime/effect.h"
+#include "runtime/scene_lights.h"
+#include "runtime/shadow_maps.h"
+#include "runtime/skin_facts.h"
 
 namespace blush {
 namespace {
@@ -26,6 +29,18 @@ void find_facts(CharacterState& state, const View& view) {
     const bool same_settings = state.deformed_settings == state.settings;
     state.facts.deformation_current = state.deformed_valid && same_settings && state.active == state.deformed_active;
     state.normal_method = method;
+}
+
+/// Lights, skin and shadows; needs where every node stands.
+void find_light_facts(CharacterState& state, const View& view) {
+    if (view.lighting == nullptr) state.portrait = portrait_lighting(view.camera);
+    state.lighting = view.lighting != nullptr ? view.lighting : &state.portrait;
+    usable_lights(*state.lighting, state.lights);
+    state.facts.lights = static_cast<std::uint32_t>(state.lights.size());
+    find_skin_facts(state);
+    place_shadow_maps(state);
+    state.facts.surface_moved = !shadow_maps_current(state);
+    state.shadows_shown = state.settings.choice(shadows_effect.name, "method") == 0 && state.facts.shadow_lights > 0;
 }
 
 /// Effects that run must leave the same picture as effects that were left out; what they leave is remembered here.
@@ -51,6 +66,19 @@ void begin_surface(CharacterState& state) {
 
 ResourceId display_texture(CharacterState& state) {
     return state.graph.texture("display", {PixelFormat::rgba8, state.view->width, state.view->height, 1});
+}
+
+/// An image that shading writes, and the one that it is resolved to: the same one where `shape` has one sample.
+ResourceId shaded_image(CharacterState& state, std::string_view multisampled, std::string_view single,
+                        TextureShape shape) {
+    const ResourceId from = state.graph.texture(multisampled, shape);
+    ResourceId to = from;
+    if (shape.samples > 1) {
+        shape.samples = 1;
+        to = state.graph.texture(single, shape);
+    }
+    state.resources.to_resolve[state.resources.resolve_count++] = {from, to};
+    return to;
 }
 
 void run(CharacterState& state, const View& view) {
@@ -83,6 +111,7 @@ void begin_frame(CharacterState& state, const View& view) {
     find_facts(state, view);
     world_from_nodes(state.face, state.pose, state.head_and_eyes, state.world_from_node);
     skinned_from_meshes(state.face, state.world_from_node, state.skinned_from_mesh);
+    find_light_facts(state, view);
     state.report.active = state.active;
     state.report.deltas_added = 0;
     state.report.triangles_drawn = 0;
@@ -135,7 +164,9 @@ void draw_frame(CharacterState& state, const View& view) {
     begin_frame(state, view);
     begin_surface(state);
     find_needs(state);
+    state.translucency_shown = state.shadows_shown && state.on(translucency_effect);
     declare_stage(state, Stage::surface);
+    state.resources.shadow_maps = state.graph.import_framebuffer("shadow maps", 0, {});
     declare_stage(state, Stage::light);
 
     const auto samples = static_cast<std::uint32_t>(
@@ -143,11 +174,18 @@ void draw_frame(CharacterState& state, const View& view) {
     TextureShape color{PixelFormat::rgba16f, view.width, view.height, samples};
     TextureShape depth = color;
     depth.format = PixelFormat::depth32f;
-    state.resources.scene_color_multisampled = state.graph.texture("scene colour, multisampled", color);
     state.resources.scene_depth = state.graph.texture("scene depth", depth);
+    state.resources.resolve_count = 0;
+    state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
+    state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
+    if (state.on(scattering_effect)) {
+        TextureShape skin_depth = color;
+        skin_depth.format = PixelFormat::r32f;
+        state.resources.skin_light = shaded_image(state, "skin light, multisampled", "skin light", color);
+        state.resources.skin_albedo = shaded_image(state, "skin albedo, multisampled", "skin albedo", color);
+        state.resources.skin_depth = shaded_image(state, "skin depth, multisampled", "skin depth", skin_depth);
+    }
     color.samples = 1;
-    state.resources.scene_color =
-        samples > 1 ? state.graph.texture("scene colour", color) : state.resources.scene_color_multisampled;
     state.resources.target = state.graph.import_framebuffer("view", view.framebuffer, color);
 
     declare_shade(state);

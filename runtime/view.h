@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 
+#include "runtime/lighting.h"
+
 namespace blush {
 
 struct Camera {
@@ -22,8 +24,9 @@ struct View {
     std::uint32_t width = 0, height = 0;  ///< pixels, of the framebuffer
     std::uint32_t framebuffer = 0;        ///< GL name; 0: the default framebuffer
     Output output = Output::display_srgb;
-    float exposure = 1;         ///< factor on radiance before the filmic curve
-    std::uint32_t samples = 4;  ///< of multisampling; clamped to what the device has
+    float exposure = 1;                  ///< factor on radiance before the filmic curve
+    const Lighting* lighting = nullptr;  ///< alive while drawing; null: three lights of a portrait, fixed to the camera
+    std::uint32_t samples = 4;           ///< of multisampling; clamped to what the device has
     glm::vec4 background_linear{0.035F, 0.037F, 0.042F, 1};
     bool timed = false;          ///< measure each pass (FrameReport::passes)
     bool check_finite = false;   ///< scan what each pass wrote (slow: reads it back)

@@ -1,4 +1,4 @@
-/// Averages the samples of the multisampled scene colour.
+/// Averages the samples of the multisampled images that shading wrote.
 
 #include "runtime/frame.h"
 
@@ -7,14 +7,18 @@ namespace blush {
 void declare_resolve(CharacterState& state) {
     const auto resolve = [&state](const FrameGraph& graph) {
         const auto width = static_cast<GLint>(state.view->width), height = static_cast<GLint>(state.view->height);
-        glNamedFramebufferTexture(state.resolved_framebuffer.name(), GL_COLOR_ATTACHMENT0,
-                                  graph[state.resources.scene_color].handle, 0);
-        glBlitNamedFramebuffer(state.scene_framebuffer.name(), state.resolved_framebuffer.name(), 0, 0, width, height,
-                               0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        const GLuint from = state.output_framebuffer.name(), to = state.resolved_framebuffer.name();
+        for (std::size_t i = 0; i < state.resources.resolve_count; ++i) {
+            const FrameResources::Resolved& image = state.resources.to_resolve[i];
+            glNamedFramebufferTexture(from, GL_COLOR_ATTACHMENT0, graph[image.from].handle, 0);
+            glNamedFramebufferTexture(to, GL_COLOR_ATTACHMENT0, graph[image.to].handle, 0);
+            glBlitNamedFramebuffer(from, to, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        }
     };
-    state.graph.pass("resolve", resolve)
-        .reads(state.resources.scene_color_multisampled)
-        .writes(state.resources.scene_color);
+    state.graph.pass("resolve", resolve);
+    for (std::size_t i = 0; i < state.resources.resolve_count; ++i) {
+        state.graph.reads(state.resources.to_resolve[i].from).writes(state.resources.to_resolve[i].to);
+    }
 }
 
 }  // namespace blush
