@@ -94,6 +94,7 @@ struct Material {
     glm::vec3 emissive_linear{0};
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
+    std::optional<bool> skin;  ///< whether the file says that light scatters in it (glTF: extras.blush_skin)
     TextureUse base_color_srgb, metallic_roughness, normal, occlusion, emissive_srgb;
 };
 

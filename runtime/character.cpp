@@ -9,6 +9,7 @@
 #include "runtime/frame.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/rig_description_file.h"
+#include "runtime/skin_facts.h"
 
 namespace blush {
 namespace {
@@ -82,6 +83,7 @@ Result<Character> Character::create(const Device& device, Face face, const std::
     state->pose = state->rig.rest_pose();
     state->head_and_eyes = find_head_and_eyes(state->face);
     state->bounds = moving_bounds(state->face);
+    find_skin_parts(*state);
     state->target_needs_turned_normals = targets_that_move(
         state->face, [](const Primitive& primitive) { return primitive.normal_source == NormalSource::recomputed; });
     state->target_moves_normals = targets_that_move(

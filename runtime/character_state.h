@@ -20,6 +20,7 @@
 #include "runtime/finite_check.h"
 #include "runtime/frame_graph.h"
 #include "runtime/frame_report.h"
+#include "runtime/gl/shared_blocks.h"
 #include "runtime/gl/texture_pool.h"
 #include "runtime/gl/timers.h"
 #include "runtime/stream_out.h"
@@ -35,10 +36,22 @@ struct SceneFacts {
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
     bool has_triangles = false;
+    bool has_skin = false;            ///< the face has a material that is skin
+    bool skin_on_screen = false;      ///< it may be seen; false only where it cannot be
+    double skin_pixels_a_mm = 0;      ///< on the screen, at the nearest place where skin may be
+    bool surface_moved = false;       ///< since the shadow maps were drawn
+    std::uint32_t lights = 0;         ///< that are not dark
+    std::uint32_t shadow_lights = 0;  ///< of those, how many may cast shadows
     bool forced = false;
     // Of temporal antialiasing; false in other modes.
     bool has_last_frame = false;  ///< the last frame can be compared with this one
     bool moves = false;           ///< ... and some point may stand elsewhere on the screen than in it
+};
+
+/// A primitive that is skin, as a node draws it.
+struct SkinPart {
+    std::size_t node = 0;
+    Bounds bounds;  ///< in its mesh, at rest
 };
 
 /// Resources of the frame that passes hand on to one another.
@@ -47,6 +60,9 @@ struct FrameResources {
     ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
     ResourceId blood_change{};  ///< what "blend blood" writes
+    /// Light that scatters, the albedo that it leaves by, its depth, each times the skin's matte; with scattering only.
+    ResourceId skin_light{}, skin_albedo{}, skin_depth{};
+    ResourceId shadow_maps{};
     /// Multisampled images that shading writes and what they become, one sample a pixel: the scene's colour, and others
     /// that are resolved with its weights.
     struct Resolved {
@@ -85,6 +101,10 @@ struct CharacterState {
     std::vector<std::uint8_t> target_moves_normals;         // of each target, for any primitive that it moves
 
     // The pose that the deformed buffers hold.
+    std::vector<bool> skin_material;   // of each material and, last, the default one
+    std::vector<SkinPart> skin_parts;  // by node
+    std::vector<float> target_reach;   // of each target: its longest move of skin at weight 1, mesh units
+    double millimetres_a_unit = 1;
     std::vector<ActiveTarget> active, deformed_active;
     NormalMethod normal_method = NormalMethod::authored;
     EffectSettings deformed_settings;
@@ -102,6 +122,11 @@ struct CharacterState {
     FrameResources resources;
     std::uint32_t images_left = 0;  // steps after the scene that have yet to declare themselves
     std::uint32_t kept_at = 0;      // the image with so many steps after it is kept for the next frame; 0: none
+    std::vector<LightSource> lights;           // that are not dark
+    std::vector<shared::Light> shader_lights;  // the same, with their shadow maps where they have one
+    bool shadows_shown = false, translucency_shown = false;
+    const Lighting* lighting = nullptr;  // the view's, or portrait
+    Lighting portrait;
     std::vector<glm::mat4> world_from_node, skinned_from_mesh;
     gl::Program tone_program;
     gl::Framebuffer scene_framebuffer, resolved_framebuffer, output_framebuffer;

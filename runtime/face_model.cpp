@@ -66,21 +66,25 @@ std::array<const TextureUse*, 5> textures_of(const Material& m) {
     return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb};
 }
 
-constexpr std::array<std::string_view, 5> texture_defines = {"BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP",
-                                                             "OCCLUSION_MAP", "EMISSIVE_MAP"};
+constexpr std::array<std::string_view, 15> defines_of_bits = {
+    "BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP", "OCCLUSION_MAP", "EMISSIVE_MAP", "SKIN",
+    "SCATTER",        "SKIN_REFLECTION",        "SHADOWS",    "TRANSLUCENCY",  "ENVIRONMENT",  "AMBIENT_OCCLUSION", "WRINKLES", "WRINKLE_DIFFERENCES", "BLOOD"};
 
-std::uint32_t permutation_of(const Material& material) {
+std::uint32_t permutation_of(const Material& material, bool skin, std::uint32_t frame_bits) {
     const auto uses = textures_of(material);
-    std::uint32_t bits = 0;
+    std::uint32_t bits = frame_bits;
     for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? 1U << t : 0U;
-    return bits;
+    // What only skin has is left out elsewhere, so that fewer programs are made.
+    constexpr std::uint32_t of_skin = shade_skin_reflection | shade_translucency | shade_wrinkles |
+                                      shade_wrinkle_differences | shade_blood;
+    return skin ? bits | shade_skin : bits & ~of_skin;
 }
 
 Status make_permutation(std::map<std::uint32_t, gl::Program>& programs, std::uint32_t bits) {
     if (programs.contains(bits)) return Done{};
     std::vector<std::string_view> defines;
-    for (std::size_t t = 0; t < texture_defines.size(); ++t) {
-        if ((bits >> t & 1U) != 0) defines.push_back(texture_defines[t]);
+    for (std::size_t t = 0; t < defines_of_bits.size(); ++t) {
+        if ((bits >> t & 1U) != 0) defines.push_back(defines_of_bits[t]);
     }
     Result<gl::Program> made = gl::make_program({"face.vert", "face.frag", defines});
     if (!made) return made.error();
@@ -170,11 +174,6 @@ Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_t
             slot = *std::move(made);
         }
     }
-    if (Status made = make_permutation(model.programs, permutation_of(default_material())); !made) return made.error();
-    for (const Material& material : face.materials) {
-        if (Status made = make_permutation(model.programs, permutation_of(material)); !made) return made.error();
-    }
-
     for (std::size_t s = 0; s < model.samplers.size(); ++s) {
         model.samplers[s] = gl::make_sampler();
         const GLuint name = model.samplers[s].name();
@@ -194,13 +193,24 @@ void FaceModel::bind_surface(const SurfaceBuffers& surface) const {
     glBindVertexArray(array);
 }
 
-void FaceModel::bind_material(const Face& face, std::int32_t material) const {
+Status FaceModel::prepare(const Face& face, const std::vector<bool>& skin, std::uint32_t frame_bits) {
+    for (std::size_t m = 0; m < face.materials.size(); ++m) {
+        const std::uint32_t bits = permutation_of(face.materials[m], skin[m], frame_bits);
+        if (Status made = make_permutation(programs, bits); !made) return made;
+    }
+    const bool uses_default =
+        std::ranges::any_of(face.primitives, [](const Primitive& primitive) { return primitive.material < 0; });
+    if (!uses_default) return Done{};
+    return make_permutation(programs, permutation_of(default_material(), skin.back(), frame_bits));
+}
+
+void FaceModel::bind_material(const Face& face, std::int32_t material, bool skin, std::uint32_t frame_bits) const {
     const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : face.materials.size();
     glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_MATERIAL_BINDING, material_blocks.name(),
                       static_cast<GLintptr>(index * material_stride), sizeof(shared::MaterialBlock));
     static const Material plain = default_material();
     const Material& described = material >= 0 ? face.materials[index] : plain;
-    glUseProgram(programs.at(permutation_of(described)).name());
+    glUseProgram(programs.at(permutation_of(described, skin, frame_bits)).name());
     const auto uses = textures_of(described);
     for (GLuint t = 0; t < uses.size(); ++t) {
         const TextureUse& use = *uses[t];

@@ -14,13 +14,31 @@
 
 namespace blush {
 
+/// Bits of a permutation of face.frag: the material's five textures come first, in the order of MaterialBlock.
+enum ShadeBits : std::uint32_t {
+    shade_skin = 1U << 5,  ///< of the material
+    shade_scatter = 1U << 6,
+    shade_skin_reflection = 1U << 7,
+    shade_shadows = 1U << 8,
+    shade_translucency = 1U << 9,
+    shade_environment = 1U << 10,
+    shade_ambient_occlusion = 1U << 11,
+    shade_wrinkles = 1U << 12,
+    shade_wrinkle_differences = 1U << 13,
+    shade_blood = 1U << 14,
+};
+
 struct FaceModel {
     static Result<FaceModel> create(const Face& face, int largest_texture_side_texels);
 
     /// Binds the vertex array with `surface` as its positions, normals and tangents.
     void bind_surface(const SurfaceBuffers& surface) const;
-    /// Uses the program, and binds the block and the textures, of a material (-1: the default one).
-    void bind_material(const Face& face, std::int32_t material) const;
+    /// Uses the program, and binds the block and the textures, of a material (-1: the default one). frame_bits: what
+    /// the frame adds to the permutation; prepare() must have been called with them.
+    void bind_material(const Face& face, std::int32_t material, bool skin, std::uint32_t frame_bits) const;
+    /// Makes the programs that a frame needs, where they are not there yet. skin: of each material and, last, the
+    /// default one.
+    Status prepare(const Face& face, const std::vector<bool>& skin, std::uint32_t frame_bits);
     /// Binds entry `index` of draw_blocks.
     void bind_draw(std::size_t index) const;
 
@@ -36,7 +54,7 @@ struct FaceModel {
 
     /// By image, read as sRGB and read as it is; made only where a material reads them so.
     std::vector<gl::Texture> srgb_textures, linear_textures;
-    /// Permutations of face.frag: bit t is set when the material has texture t, in the order of MaterialBlock.
+    /// Permutations of face.frag, by their ShadeBits.
     std::map<std::uint32_t, gl::Program> programs;
     std::array<gl::Sampler, 4> samplers;  ///< bit 0: repeat u, bit 1: repeat v (else clamp)
 };

@@ -51,6 +51,7 @@ std::optional<NotFinite> FiniteCheck::scan_buffer(const FrameResource& resource)
 
 std::optional<NotFinite> FiniteCheck::scan_texture(const FrameResource& resource) {
     const TextureShape& shape = resource.shape;
+    if (shape.format == PixelFormat::stencil8) return std::nullopt;  // whole numbers
     const bool depth = gl::has_depth(shape.format);
     const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
     if (!read_framebuffer_) {

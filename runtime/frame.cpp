@@ -6,6 +6,9 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
 #include "runtime/effect.h"
+#include "runtime/scene_lights.h"
+#include "runtime/shadow_maps.h"
+#include "runtime/skin_facts.h"
 
 namespace blush {
 namespace {
@@ -30,6 +33,18 @@ void find_facts(CharacterState& state, const View& view) {
     const bool same_settings = state.deformed_settings == state.settings;
     state.facts.deformation_current = state.deformed_valid && same_settings && state.active == state.deformed_active;
     state.normal_method = method;
+}
+
+/// Lights, skin and shadows; needs where every node stands.
+void find_light_facts(CharacterState& state, const View& view) {
+    if (view.lighting == nullptr) state.portrait = portrait_lighting(view.camera);
+    state.lighting = view.lighting != nullptr ? view.lighting : &state.portrait;
+    usable_lights(*state.lighting, state.lights);
+    state.facts.lights = static_cast<std::uint32_t>(state.lights.size());
+    find_skin_facts(state);
+    place_shadow_maps(state);
+    state.facts.surface_moved = !shadow_maps_current(state);
+    state.shadows_shown = state.settings.choice(shadows_effect.name, "method") == 0 && state.facts.shadow_lights > 0;
 }
 
 /// Effects that run must leave the same picture as effects that were left out; what they leave is remembered here.
@@ -76,6 +91,19 @@ void count_images(CharacterState& state, const View& view, bool last_picture) {
         on(Stage::filter) + (state.picture > 0 ? on(Stage::average) : 0) + (keeps ? 1 : 0) + display_steps;
 }
 
+/// An image that shading writes, and the one that it is resolved to: the same one where `shape` has one sample.
+ResourceId shaded_image(CharacterState& state, std::string_view multisampled, std::string_view single,
+                        TextureShape shape) {
+    const ResourceId from = state.graph.texture(multisampled, shape);
+    ResourceId to = from;
+    if (shape.samples > 1) {
+        shape.samples = 1;
+        to = state.graph.texture(single, shape);
+    }
+    state.resources.to_resolve[state.resources.resolve_count++] = {from, to};
+    return to;
+}
+
 void run(CharacterState& state, const View& view) {
     state.graph.compile();
     state.timers.clear();
@@ -105,6 +133,7 @@ void begin_frame(CharacterState& state, const View& view) {
     find_facts(state, view);
     world_from_nodes(state.face, state.pose, state.head_and_eyes, state.world_from_node);
     skinned_from_meshes(state.face, state.world_from_node, state.skinned_from_mesh);
+    find_light_facts(state, view);
     state.report.active = state.active;
     state.report.deltas_added = 0;
     state.report.triangles_drawn = 0;
@@ -158,19 +187,6 @@ void draw_screen(const CharacterState& state) {
 
 namespace {
 
-/// An image that shading writes, and the one that it is resolved to: the same one where `shape` has one sample.
-ResourceId shaded_image(CharacterState& state, std::string_view multisampled, std::string_view single,
-                        TextureShape shape) {
-    const ResourceId from = state.graph.texture(multisampled, shape);
-    ResourceId to = from;
-    if (shape.samples > 1) {
-        shape.samples = 1;
-        to = state.graph.texture(single, shape);
-    }
-    state.resources.to_resolve[state.resources.resolve_count++] = {from, to};
-    return to;
-}
-
 void declare_picture(CharacterState& state, const View& view) {
     const bool last_picture = state.picture + 1 == state.sampling.pictures;
     const std::uint32_t phase = state.own<LastFrame>().phase;
@@ -182,6 +198,8 @@ void declare_picture(CharacterState& state, const View& view) {
     } else {
         import_surface(state, *state.surface);
     }
+    state.resources.shadow_maps = state.graph.import_framebuffer("shadow maps", 0, {});
+    state.resources.blood_change = state.graph.import_framebuffer("blood", 0, {});
     declare_stage(state, Stage::light);
 
     const TextureShape color{PixelFormat::rgba16f, view.width, view.height, state.sampling.samples};
@@ -190,6 +208,13 @@ void declare_picture(CharacterState& state, const View& view) {
     state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
     state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
     state.resources.scene_depth = state.graph.texture("scene depth", depth);
+    if (state.on(scattering_effect)) {
+        TextureShape skin_depth = color;
+        skin_depth.format = PixelFormat::r32f;
+        state.resources.skin_light = shaded_image(state, "skin light, multisampled", "skin light", color);
+        state.resources.skin_albedo = shaded_image(state, "skin albedo, multisampled", "skin albedo", color);
+        state.resources.skin_depth = shaded_image(state, "skin depth, multisampled", "skin depth", skin_depth);
+    }
     state.resources.target = last_picture
                                  ? state.graph.import_framebuffer("view", view.framebuffer, picture_shape(view))
                                  : picture_store(state, picture_shape(view), state.graph);
@@ -228,6 +253,7 @@ void draw_frame(CharacterState& state, const View& view) {
     find_last_frame(state, view);
     state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
     find_needs(state);
+    state.translucency_shown = state.shadows_shown && state.on(translucency_effect);
     begin_pictures(state);
     for (state.picture = 0; state.picture < state.sampling.pictures; ++state.picture) {
         state.graph.clear();

@@ -23,7 +23,8 @@ enum class PixelFormat : std::uint8_t {
     r32f,
     rgba32f,
     depth32f,
-    depth32f_stencil8
+    depth32f_stencil8,
+    stencil8
 };
 
 struct TextureShape {

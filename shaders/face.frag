@@ -1,14 +1,19 @@
-// Linear HDR shading of the face: three lights and a hemisphere of ambient light on a Lambert and GGX surface
-// (glTF 2.0, appendix B: metallic-roughness). Skin scattering takes this room over later.
+// Linear HDR shading of the face. Skin: jimenez-2012, chapters 5 and 6, chappuis-2011, chapters 2 and 3. All else: a
+// Lambert and GGX surface (glTF 2.0, appendix B: metallic-roughness).
 #include "shared.glsl"
 
 in vec3 position_world;
 in vec3 normal_world;
 in vec4 tangent_world;
 in vec2 texture_uv[5];
+in vec2 layout_uv;
+#ifdef AMBIENT_OCCLUSION
+in vec3 ambient_visibility;
+#endif
 
 // Permutations: a map that the material lacks is not fetched (BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP,
-// OCCLUSION_MAP, EMISSIVE_MAP).
+// OCCLUSION_MAP, EMISSIVE_MAP); SKIN is the material's, SCATTER (the skin's diffuse light goes to targets of its own),
+// SKIN_REFLECTION, SHADOWS, TRANSLUCENCY, ENVIRONMENT, AMBIENT_OCCLUSION, WRINKLES and BLOOD are the frame's.
 layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
 layout(binding = BLUSH_METALLIC_ROUGHNESS_UNIT) uniform sampler2D metallic_roughness_map;
 layout(binding = BLUSH_NORMAL_MAP_UNIT) uniform sampler2D normal_map;
@@ -16,6 +21,29 @@ layout(binding = BLUSH_OCCLUSION_UNIT) uniform sampler2D occlusion_map;
 layout(binding = BLUSH_EMISSIVE_UNIT) uniform sampler2D emissive_map;
 
 layout(location = 0) out vec4 radiance_linear;
+#ifdef SCATTER
+// Light that enters the skin, the albedo that it meets when it leaves, and depth, each times the matte (how much of the
+// pixel is skin). What is not skin writes 0, and by blending takes its own share from the skin behind.
+layout(location = 1) out vec4 skin_light;
+layout(location = 2) out vec4 skin_albedo;
+layout(location = 3) out vec4 skin_depth_mm;
+#endif
+
+#ifdef SHADOWS
+#include "shadow.glsl"
+#endif
+#ifdef ENVIRONMENT
+#include "environment.glsl"
+#endif
+#ifdef SKIN
+#include "skin_surface.glsl"
+#endif
+#ifdef WRINKLES
+#include "wrinkles.glsl"
+#endif
+#ifdef BLOOD
+#include "blood.glsl"
+#endif
 
 const float pi = 3.14159265358979;
 // The largest finite half float is 65504; a highlight beyond this would be infinite in the scene colour.
@@ -28,13 +56,25 @@ vec3 unit_or(vec3 v, vec3 fallback) {
 
 vec3 shading_normal(vec3 view_world) {
     vec3 n = unit_or(normal_world, view_world);
+#if defined(NORMAL_MAP) || defined(WRINKLES)
+    vec3 m = vec3(0.0, 0.0, 1.0);
+    bool bent = false;
 #ifdef NORMAL_MAP
+    m = texture(normal_map, texture_uv[2]).xyz * 2.0 - 1.0;
+    m.xy *= metallic_roughness_normal_occlusion.z;
+    bent = true;
+#endif
+#ifdef WRINKLES
+    float strength = wrinkle_strength(layout_uv);
+    if (strength != 0.0) {
+        m = wrinkled(m, layout_uv, strength);
+        bent = true;
+    }
+#endif
     vec3 t = tangent_world.xyz - n * dot(n, tangent_world.xyz);
-    if (dot(t, t) > 1e-30) {
+    if (bent && dot(t, t) > 1e-30) {
         t = unit_or(t, vec3(1.0, 0.0, 0.0));
         vec3 b = cross(n, t) * tangent_world.w;
-        vec3 m = texture(normal_map, texture_uv[2]).xyz * 2.0 - 1.0;
-        m.xy *= metallic_roughness_normal_occlusion.z;
         n = unit_or(t * m.x + b * m.y + n * m.z, n);
     }
 #endif
@@ -51,6 +91,29 @@ float specular_ggx(float n_l, float n_v, float n_h, float ggx_alpha) {
     return distribution * visibility;
 }
 
+struct Arriving {
+    vec3 direction;  // unit, towards the light
+    vec3 radiance;   // of a white surface that faces it
+};
+
+Arriving arriving(int i) {
+    Arriving result;
+    result.direction = lights[i].position_world.xyz;
+    result.radiance = lights[i].radiance_linear.rgb;
+    if (lights[i].position_world.w != 0.0) {
+        vec3 to = lights[i].position_world.xyz - position_world;
+        // A light on the surface would be infinitely bright there; a thousandth of its own distance is near enough.
+        float distance2 = max(dot(to, to), 1e-6 * lights[i].radiance_linear.w);
+        result.direction = unit_or(to, vec3(0.0, 1.0, 0.0));
+        result.radiance *= lights[i].radiance_linear.w / max(distance2, 1e-30);
+    }
+    if (lights[i].cone_world.w > -1.5) {
+        result.radiance *= smoothstep(lights[i].cone_world.w, max(lights[i].shadow.y, lights[i].cone_world.w + 1e-4),
+                                      dot(-result.direction, lights[i].cone_world.xyz));
+    }
+    return result;
+}
+
 void main() {
     vec4 base = base_color_linear;
 #ifdef BASE_COLOR_MAP
@@ -58,8 +121,14 @@ void main() {
 #endif
     if (base.a < alpha.x) discard;
 
+#ifdef BLOOD
+    base.rgb = flushed(base.rgb, layout_uv);
+#endif
+
     vec3 view = unit_or(camera_world.xyz - position_world, vec3(0.0, 0.0, 1.0));
     vec3 n = shading_normal(view);
+    vec3 vertex_normal = unit_or(normal_world, view);
+    if (!gl_FrontFacing) vertex_normal = -vertex_normal;
     // Grazing pixels of interpolated normals may face away; the clamp keeps the visibility term's divisor above zero.
     float n_v = max(dot(n, view), 1e-3);
 
@@ -74,30 +143,89 @@ void main() {
 #ifdef OCCLUSION_MAP
     occlusion += metallic_roughness_normal_occlusion.w * (texture(occlusion_map, texture_uv[3]).r - 1.0);
 #endif
-    vec3 diffuse = base.rgb * (1.0 - metallic);
+    vec3 diffuse_color = base.rgb * (1.0 - metallic);
     vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
 
-    vec3 ambient = mix(ground_radiance_linear.rgb, sky_radiance_linear.rgb, 0.5 + 0.5 * n.y);
-    vec3 result = diffuse * ambient * occlusion;
-    // Ambient reflection: the hemisphere in the mirror direction, with Schlick's Fresnel damped by roughness.
     vec3 mirrored = reflect(-view, n);
-    vec3 fresnel_view = f0 + (max(vec3(1.0 - roughness), f0) - f0) * pow(1.0 - min(n_v, 1.0), 5.0);
-    result += fresnel_view * mix(ground_radiance_linear.rgb, sky_radiance_linear.rgb, 0.5 + 0.5 * mirrored.y) * occlusion;
+    // Radiance that a white surface reflects, and what a mirror as rough as this one shows.
+#ifdef ENVIRONMENT
+    vec3 ambient = environment_ambient(n);
+    vec3 ambient_mirrored = environment_mirrored(mirrored, roughness);
+#else
+    vec3 ambient = mix(ground_radiance_linear.rgb, sky_radiance_linear.rgb, 0.5 + 0.5 * n.y);
+    vec3 ambient_mirrored = mix(ground_radiance_linear.rgb, sky_radiance_linear.rgb, 0.5 + 0.5 * mirrored.y);
+#endif
+#ifdef AMBIENT_OCCLUSION
+    ambient *= ambient_visibility;
+    ambient_mirrored *= min(ambient_visibility, vec3(1.0));
+#endif
+    vec3 entering = vec3(0.0);  // radiance that white would reflect, of the light that is left for the inside
+    vec3 surface = vec3(0.0);   // reflected at the surface
+    vec3 leaving = vec3(1.0);   // share that the surface lets out again
 
-    for (int i = 0; i < BLUSH_LIGHT_COUNT; ++i) {
-        vec3 l = lights[i].direction_world.xyz;
+#if defined(SKIN) && defined(SKIN_REFLECTION)
+    float skin_rough = clamp(skin.z * (roughness / 0.5), 0.08, 0.95);
+    float skin_intensity = skin.w;
+    vec2 mirror_view = skin_intensity * specular_albedo(n_v, skin_rough);
+    // Light that comes from below and is sent back at the surface leaves elsewhere: the division by what the surface
+    // lets out on the average keeps a white furnace white (Kelemen and Szirmay-Kalos 2001, 3). chappuis-2011, 2.6, leaves
+    // it out and loses some 4 %.
+    leaving *= (1.0 - mirror_view.x) / (1.0 - mirror_view.y);
+    // Uniform light from everywhere is reflected by the directional albedo of the view: reciprocity.
+    surface += ambient_mirrored * occlusion * mirror_view.x;
+    entering += ambient * occlusion * (1.0 - mirror_view.y);
+#else
+    // Ambient reflection: what stands in the mirror direction, with Schlick's Fresnel damped by roughness.
+    vec3 fresnel_view = f0 + (max(vec3(1.0 - roughness), f0) - f0) * pow(1.0 - min(n_v, 1.0), 5.0);
+    surface += fresnel_view * ambient_mirrored * occlusion;
+    entering += ambient * occlusion;
+#endif
+
+    for (int i = 0; i < counts.x; ++i) {
+        Arriving light = arriving(i);
+        vec3 l = light.direction;
         float n_l = dot(n, l);
+#if defined(SKIN) && defined(TRANSLUCENCY)
+        entering += light.radiance * transmitted(i, l, vertex_normal);
+#endif
         if (n_l <= 0.0) continue;
-        vec3 h = unit_or(l + view, n);
+        vec3 radiance = light.radiance;
+#ifdef SHADOWS
+        radiance *= lit_share(i, vertex_normal, l);
+#endif
+        vec3 h = l + view;
+#if defined(SKIN) && defined(SKIN_REFLECTION)
+        entering += (1.0 - skin_intensity * specular_albedo(n_l, skin_rough).x) * radiance * n_l;
+        // radiance is irradiance / pi: Lambert's 1 / pi cancels, the specular term keeps pi.
+        surface += pi * skin_intensity * skin_specular(n, h, view, skin_rough) * radiance * n_l;
+#else
+        h = unit_or(h, n);
         vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - clamp(dot(view, h), 0.0, 1.0), 5.0);
         float specular = specular_ggx(n_l, n_v, clamp(dot(n, h), 0.0, 1.0), roughness * roughness);
-        // radiance_linear is irradiance / pi: Lambert's 1 / pi cancels, the specular term keeps pi.
-        result += ((1.0 - fresnel) * diffuse + pi * specular * fresnel) * lights[i].radiance_linear.rgb * n_l;
+        entering += (1.0 - fresnel) * radiance * n_l;
+        surface += pi * specular * fresnel * radiance * n_l;
+#endif
     }
     vec3 emitted = emissive_linear.rgb;
 #ifdef EMISSIVE_MAP
     emitted *= texture(emissive_map, texture_uv[4]).rgb;
 #endif
-    result += emitted;
-    radiance_linear = vec4(min(result, vec3(largest_radiance)), max(base.a, alpha.y));
+    surface += emitted;
+
+    float opacity = max(base.a, alpha.y);
+#if defined(SCATTER) && defined(SKIN)
+    // chappuis-2011, 2.2.4: a part of the albedo before the diffusion, the rest after it.
+    vec3 albedo = max(diffuse_color, vec3(1e-6));
+    vec3 before = pow(albedo, vec3(skin.y));
+    skin_light = vec4(min(entering * before, vec3(largest_radiance)), 1.0);
+    skin_albedo = vec4(albedo / before * leaving, 1.0);
+    skin_depth_mm = vec4(dot(depth_from_world, vec4(position_world, 1.0)) * skin.x, 0.0, 0.0, 1.0);
+#else
+    surface += diffuse_color * entering * leaving;
+#if defined(SCATTER)
+    skin_light = skin_albedo = skin_depth_mm = vec4(0.0, 0.0, 0.0, opacity);
+    if (alpha.y == 1.0) skin_light = skin_albedo = skin_depth_mm = vec4(0.0);
+#endif
+#endif
+    radiance_linear = vec4(min(surface, vec3(largest_radiance)), opacity);
 }

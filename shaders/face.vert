@@ -10,6 +10,7 @@ layout(location = BLUSH_UV1_ATTRIBUTE) in vec2 uv1;
 out vec3 position_world;
 out vec3 normal_world;
 out vec4 tangent_world;
+out vec2 layout_uv;      // of the face's own maps
 out vec2 texture_uv[5];  // of each texture of the material, in the order of MaterialBlock
 
 vec2 transformed(int texture_index, int uv_set) {
@@ -24,5 +25,6 @@ void main() {
     tangent_world = vec4(mat3(world_from_mesh) * tangent.xyz, tangent.w);
     for (int i = 0; i < 4; ++i) texture_uv[i] = transformed(i, uv_sets[i]);
     texture_uv[4] = transformed(4, emissive_uv_set.x);
+    layout_uv = uv0;
     gl_Position = clip_from_world * world;
 }

@@ -2,8 +2,19 @@
 // through runtime/gl/shared_blocks.h). No vec3 and no bool in a block, so that std140, std430 and C++ agree; a check at
 // program load compares the driver's offsets with offsetof.
 
-// Lights of a frame: key, fill and rim.
-#define BLUSH_LIGHT_COUNT 3
+// Lights of a frame, at most: the shader walks as many as there are.
+#define BLUSH_MOST_LIGHTS 8
+// Taps of the separable diffusion kernel without its centre, at most.
+#define BLUSH_MOST_KERNEL_TAPS 32
+// Of the skin, at any depth: keeps a camera inside the skin finite. rig/scatter_image.h has the same.
+#define BLUSH_MOST_PIXELS_A_MM 4096.0
+// Sides of the tables of the skin's surface reflection, and steps of the table of T(s).
+#define BLUSH_BECKMANN_TABLE_SIDE 128
+#define BLUSH_SPECULAR_ALBEDO_COLUMNS 32
+#define BLUSH_SPECULAR_ALBEDO_ROWS 16
+#define BLUSH_TRANSMITTANCE_STEPS 128
+// Thickness at which the table of T(s) ends: at 10 mm less than 1.3 % of red passes and nothing of the rest.
+#define BLUSH_TRANSMITTANCE_END_MM 10.0
 
 // Maps of blood that act at once, at most.
 #define BLUSH_MOST_BLOOD_MAPS 32
@@ -56,6 +67,11 @@
 #define BLUSH_NORMAL_MAP_UNIT 2
 #define BLUSH_OCCLUSION_UNIT 3
 #define BLUSH_EMISSIVE_UNIT 4
+#define BLUSH_BECKMANN_UNIT 5
+#define BLUSH_SPECULAR_ALBEDO_UNIT 9
+#define BLUSH_TRANSMITTANCE_UNIT 6
+#define BLUSH_SHADOW_UNIT 7
+#define BLUSH_ENVIRONMENT_UNIT 8
 #define BLUSH_WRINKLE_MAP_UNIT 10
 #define BLUSH_WRINKLE_MASK_1_UNIT 11
 #define BLUSH_WRINKLE_MASK_2_UNIT 12
@@ -83,18 +99,34 @@
 #define BLUSH_MLAA_DISTANCES 9
 #define BLUSH_SEARCH_TABLE_RIGHT 33
 #define BLUSH_FEWEST_DIAGONAL_EDGES 5
+#define BLUSH_SKIN_LIGHT_UNIT 0
+#define BLUSH_SKIN_DEPTH_UNIT 1
+#define BLUSH_SKIN_ALBEDO_UNIT 2
 
 struct Light {
-    vec4 direction_world;  // xyz: unit vector towards the light; w unused
-    vec4 radiance_linear;  // rgb: irradiance on a facing surface / pi, so that white reflects this radiance; w unused
+    vec4 position_world;   // xyz: its place (w 1), or the unit vector towards it (w 0)
+    vec4 radiance_linear;  // rgb: irradiance on a facing surface / pi, so that white reflects this radiance;
+                           // w: square of the distance at which a light with a place has it
+    vec4 cone_world;       // xyz: unit vector that a spot shines along; w: cosine of its rim, or -2 without a cone
+    vec4 shadow;           // x: shadow map or -1; y: cosine where a spot begins to fade; z: texel at the map's depth 1
+                           // (perspective) or anywhere, world units; w: 1 when the map is a perspective
+    vec4 shadow_depth;     // x, y: near and far of the map, world units; zw unused
+    mat4 shadow_from_world;  // clip space of the shadow map
 };
 
 BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     mat4 clip_from_world;
     vec4 camera_world;  // xyz: position; w unused
-    Light lights[BLUSH_LIGHT_COUNT];
-    vec4 sky_radiance_linear;     // ambient from above
-    vec4 ground_radiance_linear;  // ambient from below
+    vec4 depth_from_world;        // dot with (place, 1): distance along the view's axis, world units
+    vec4 sky_radiance_linear;     // ambient from above; w unused
+    vec4 ground_radiance_linear;  // ambient from below; w unused
+    vec4 ambient_sh[9];           // rgb: radiance of white under an environment, by spherical harmonics of the normal
+    vec4 environment;             // x: factor on the environment map; y: its mip levels - 1; z: its turn about +Y
+    vec4 skin;                    // x: millimetres a world unit; y: share of the albedo before the diffusion
+                                  // z: roughness, w: intensity of the surface reflection
+    vec4 translucency;            // x: strength; y: mm that a point is drawn in along its normal; zw unused
+    ivec4 counts;                 // x: lights; yzw unused
+    Light lights[BLUSH_MOST_LIGHTS];
 };
 
 BLUSH_UNIFORM_BLOCK(DrawBlock, BLUSH_DRAW_BINDING) {

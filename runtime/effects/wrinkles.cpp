@@ -51,7 +51,6 @@ Need need(const CharacterState& state) {
     return {.on = true, .reason = "some zone of the face is pressed together or smoothed"};
 }
 
-/// Shading does the work; what is declared here is what it reads.
 void declare(CharacterState& state) { wrinkle_textures(state); }
 
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {

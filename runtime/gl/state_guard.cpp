@@ -103,6 +103,21 @@ StateGuard::StateGuard() {
     front_face_ = integer(GL_FRONT_FACE);
     clamp_read_ = integer(GL_CLAMP_READ_COLOR);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
+    stencil_front_ = {integer(GL_STENCIL_FUNC),
+                      integer(GL_STENCIL_REF),
+                      integer(GL_STENCIL_VALUE_MASK),
+                      integer(GL_STENCIL_FAIL),
+                      integer(GL_STENCIL_PASS_DEPTH_FAIL),
+                      integer(GL_STENCIL_PASS_DEPTH_PASS),
+                      integer(GL_STENCIL_WRITEMASK)};
+    stencil_back_ = {integer(GL_STENCIL_BACK_FUNC),
+                     integer(GL_STENCIL_BACK_REF),
+                     integer(GL_STENCIL_BACK_VALUE_MASK),
+                     integer(GL_STENCIL_BACK_FAIL),
+                     integer(GL_STENCIL_BACK_PASS_DEPTH_FAIL),
+                     integer(GL_STENCIL_BACK_PASS_DEPTH_PASS),
+                     integer(GL_STENCIL_BACK_WRITEMASK)};
+    glGetFloatv(GL_BLEND_COLOR, blend_color_.data());
 
     // The state that every pass starts from.
     for (const GLenum name : switches) glDisable(name);
@@ -122,6 +137,7 @@ StateGuard::StateGuard() {
     glFrontFace(GL_CCW);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
+    glStencilMask(~0U);
     glDepthRange(0, 1);
     glClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);
     for (GLuint unit = 0; unit < texture_units; ++unit) glBindSampler(unit, 0);
@@ -169,6 +185,14 @@ StateGuard::~StateGuard() {
     glCullFace(enum_of(cull_face_));
     glFrontFace(enum_of(front_face_));
     glDepthMask(depth_mask_);
+    const auto restore_stencil = [](GLenum face, const Stencil& stencil) {
+        glStencilFuncSeparate(face, enum_of(stencil.function), stencil.reference, name_of(stencil.value_mask));
+        glStencilOpSeparate(face, enum_of(stencil.fail), enum_of(stencil.depth_fail), enum_of(stencil.pass));
+        glStencilMaskSeparate(face, name_of(stencil.write_mask));
+    };
+    restore_stencil(GL_FRONT, stencil_front_);
+    restore_stencil(GL_BACK, stencil_back_);
+    glBlendColor(blend_color_[0], blend_color_[1], blend_color_[2], blend_color_[3]);
     glClampColor(GL_CLAMP_READ_COLOR, enum_of(clamp_read_));
 }
 

@@ -14,7 +14,7 @@ public:
     StateGuard(const StateGuard&) = delete;
     StateGuard& operator=(const StateGuard&) = delete;
 
-    static constexpr std::size_t texture_units = 5, uniform_bindings = 3, storage_bindings = 6;
+    static constexpr std::size_t texture_units = 16, uniform_bindings = 4, storage_bindings = 6;
     /// The least that GL 4.5 guarantees (table 23.55 and 23.65), and what Mesa, NVIDIA and AMD have: glViewport and its
     /// kind write them all at once.
     static constexpr std::size_t viewports = 16, draw_buffers = 8;
@@ -50,6 +50,9 @@ private:
         std::array<GLint, 6> blend{};
         std::array<GLboolean, 4> color_mask{};
     };
+    struct Stencil {  // of one face
+        GLint function = 0, reference = 0, value_mask = 0, fail = 0, depth_fail = 0, pass = 0, write_mask = 0;
+    };
     static Binding indexed_binding(GLenum binding, GLenum start, GLenum size, GLuint index);
     static void restore(GLenum target, GLuint index, const Binding& binding);
 
@@ -65,6 +68,8 @@ private:
     std::array<GLint, 5> pack_{}, unpack_{};
     std::array<GLint, 2> clip_control_{}, polygon_mode_{};
     GLint depth_function_ = 0, cull_face_ = 0, front_face_ = 0, clamp_read_ = 0;
+    Stencil stencil_front_, stencil_back_;
+    std::array<GLfloat, 4> blend_color_{};
     GLboolean depth_mask_ = GL_TRUE;
 };
 

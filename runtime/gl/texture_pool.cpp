@@ -26,6 +26,8 @@ GLenum internal_format(PixelFormat format) {
             return GL_DEPTH_COMPONENT32F;
         case PixelFormat::depth32f_stencil8:
             return GL_DEPTH32F_STENCIL8;
+        case PixelFormat::stencil8:
+            return GL_STENCIL_INDEX8;
     }
     return GL_NONE;
 }

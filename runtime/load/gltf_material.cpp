@@ -66,6 +66,8 @@ public:
         }
         material.alpha_mode = alpha_mode(source.alphaMode, place);
         material.double_sided = source.doubleSided;
+        const json* says_skin = member(member(&described, "extras"), "blush_skin");
+        if (says_skin != nullptr && says_skin->is_boolean()) material.skin = says_skin->get<bool>();
         const json* pbr_json = member(&described, "pbrMetallicRoughness");
         material.base_color_srgb =
             texture_use(member(pbr_json, "baseColorTexture"), place + ".pbrMetallicRoughness.baseColorTexture");

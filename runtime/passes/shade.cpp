@@ -1,119 +1,145 @@
 /// Draws the surface that the deformation left, lit, in linear HDR.
 
+#include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
-#include <cstring>
 
-#include <glm/gtc/matrix_inverse.hpp>
-
+#include "runtime/appearance_gpu.h"
+#include "runtime/draw_face.h"
+#include "runtime/environment_map.h"
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/shadow_maps.h"
+#include "runtime/skin_tables.h"
 
 namespace blush {
 namespace {
 
-/// Direction in the camera's frame (x right, y up, z towards the camera) to the world.
-glm::vec4 world_direction(const glm::mat4& world_from_view, glm::vec3 direction_view) {
-    return {glm::normalize(glm::mat3(world_from_view) * glm::normalize(direction_view)), 0};
+/// What of shading this frame asks for, as bits of the permutation.
+std::uint32_t frame_bits(const CharacterState& state) {
+    std::uint32_t bits = 0;
+    if (state.on(scattering_effect)) bits |= shade_scatter;
+    if (state.on(reflection_effect)) bits |= shade_skin_reflection;
+    if (state.shadows_shown) bits |= shade_shadows;
+    if (state.translucency_shown) bits |= shade_translucency;
+    if (state.on(wrinkles_effect)) {
+        const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
+        bits |= differences ? shade_wrinkles | shade_wrinkle_differences : shade_wrinkles;
+    }
+    if (state.on(blood_effect)) bits |= shade_blood;
+    if (state.on(environment_effect)) bits |= shade_environment;
+    return bits;
 }
 
-/// Three-point lighting of a portrait, fixed to the camera: a warm key from the upper left, a cool weak fill from the
-/// right, a rim from behind. Radiances in units of the white that exposure 1 shows a little below display white.
-shared::FrameBlock frame_block(const Camera& camera) {
-    const glm::mat4 world_from_view = glm::inverse(camera.view_from_world);
+shared::FrameBlock frame_block(const CharacterState& state) {
+    const Camera& camera = state.camera;
     shared::FrameBlock block{};
     block.clip_from_world = camera.clip_from_view * camera.view_from_world;
-    block.camera_world = world_from_view[3];
-    block.lights[0] = {world_direction(world_from_view, {-0.55F, 0.55F, 0.75F}), {1.75F, 1.62F, 1.48F, 0}};
-    block.lights[1] = {world_direction(world_from_view, {0.9F, 0.05F, 0.55F}), {0.34F, 0.38F, 0.46F, 0}};
-    block.lights[2] = {world_direction(world_from_view, {0.55F, 0.65F, -0.85F}), {0.9F, 0.97F, 1.05F, 0}};
-    block.sky_radiance_linear = {0.20F, 0.215F, 0.24F, 0};
-    block.ground_radiance_linear = {0.085F, 0.075F, 0.07F, 0};
+    block.camera_world = glm::inverse(camera.view_from_world)[3];
+    const glm::mat4 rows = glm::transpose(camera.view_from_world);
+    block.depth_from_world = -rows[2];
+    block.sky_radiance_linear = glm::vec4(state.lighting->sky_radiance_linear, 0);
+    block.ground_radiance_linear = glm::vec4(state.lighting->ground_radiance_linear, 0);
+    if (state.on(environment_effect)) write_environment(state, block);
+    const auto number = [&state](const Effect& effect, std::string_view setting) {
+        return static_cast<float>(state.settings.number(effect.name, setting));
+    };
+    block.skin = {static_cast<float>(state.millimetres_a_unit), number(scattering_effect, "albedo_before"),
+                  number(reflection_effect, "roughness"), number(reflection_effect, "intensity")};
+    block.translucency = {number(translucency_effect, "strength"), number(translucency_effect, "drawn_in_mm"), 0, 0};
+    block.counts.x = static_cast<int>(state.shader_lights.size());
+    std::ranges::copy(state.shader_lights, block.lights);
     return block;
 }
 
-/// Cofactors of the upper left 3x3: the inverse transpose up to a positive factor, finite for every matrix.
-glm::mat3 normal_matrix(const glm::mat4& matrix) {
-    const glm::vec3 x(matrix[0]), y(matrix[1]), z(matrix[2]);
-    const glm::mat3 cofactors(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
-    return glm::dot(x, cofactors[0]) < 0 ? -cofactors : cofactors;
+void bind_maps(CharacterState& state, std::uint32_t bits) {
+    if ((bits & (shade_skin_reflection | shade_translucency)) != 0) {
+        const SkinTables& tables = skin_tables(state);
+        glBindTextureUnit(BLUSH_BECKMANN_UNIT, tables.beckmann.name());
+        glBindTextureUnit(BLUSH_SPECULAR_ALBEDO_UNIT, tables.specular_albedo.name());
+        glBindTextureUnit(BLUSH_TRANSMITTANCE_UNIT, tables.transmittance.name());
+    }
+    if ((bits & shade_environment) != 0) bind_environment(state);
+    bind_appearance(state, (bits & shade_wrinkles) != 0, (bits & shade_blood) != 0);
+    if ((bits & shade_shadows) != 0) {
+        const auto& maps = state.own<ShadowMaps>();
+        glBindTextureUnit(BLUSH_SHADOW_UNIT, maps.depth.name());
+        glBindSampler(BLUSH_SHADOW_UNIT, maps.nearest.name());
+    }
 }
 
-void write_draw_blocks(CharacterState& state) {
-    const auto write = [&](std::size_t index, const glm::mat4& world_from_mesh) {
-        shared::DrawBlock block{};
-        block.world_from_mesh = world_from_mesh;
-        block.world_normal_from_mesh = glm::mat4(normal_matrix(world_from_mesh));
-        std::memcpy(&state.model.draw_staging[index * state.model.draw_stride], &block, sizeof(block));
-    };
-    for (std::size_t n = 0; n < state.face.nodes.size(); ++n) write(n, state.world_from_node[n]);
-    write(state.face.nodes.size(), glm::mat4(1));
-    glNamedBufferSubData(state.model.draw_blocks.name(), 0, static_cast<GLsizeiptr>(state.model.draw_staging.size()),
-                         state.model.draw_staging.data());
-}
-
-void draw_primitive(CharacterState& state, const Primitive& primitive, std::size_t draw_index, bool mirrored) {
+void draw_primitive(CharacterState& state, const Primitive& primitive, std::size_t draw_index, bool mirrored,
+                    std::uint32_t bits) {
     const std::int32_t material = primitive.material;
-    const bool double_sided = material >= 0 && state.face.materials[static_cast<std::size_t>(material)].double_sided;
+    const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : state.face.materials.size();
+    const bool double_sided = material >= 0 && state.face.materials[index].double_sided;
     state.model.bind_draw(draw_index);
-    state.model.bind_material(state.face, material);
+    state.model.bind_material(state.face, material, state.skin_material[index], bits);
     if (double_sided) {
         glDisable(GL_CULL_FACE);
     } else {
         glEnable(GL_CULL_FACE);
     }
     glFrontFace(mirrored ? GL_CW : GL_CCW);
-    const std::size_t offset_bytes = std::size_t{primitive.first_index} * sizeof(std::uint32_t);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(primitive.index_count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(offset_bytes));  // NOLINT(performance-no-int-to-ptr): GL's own way
-    state.report.triangles_drawn += primitive.index_count / 3;
+    draw_elements(state, primitive);
 }
 
-bool blends(const CharacterState& state, const Primitive& primitive) {
-    return primitive.material >= 0 &&
-           state.face.materials[static_cast<std::size_t>(primitive.material)].alpha_mode == AlphaMode::blend;
+void draw_nodes(CharacterState& state, bool blended, std::uint32_t bits) {
+    each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t draw_index, bool mirrored) {
+        if (is_blended(state.face, primitive) == blended) draw_primitive(state, primitive, draw_index, mirrored, bits);
+    });
 }
 
-/// Every primitive of every node that draws; of a skinned mesh the surface stands in the world already.
-void draw_nodes(CharacterState& state, bool blended) {
-    for (std::size_t n = 0; n < state.face.nodes.size(); ++n) {
-        const Node& node = state.face.nodes[n];
-        if (node.mesh < 0) continue;
-        const Mesh& mesh = state.face.meshes[static_cast<std::size_t>(node.mesh)];
-        const bool skinned = node.skin >= 0 && state.facts.has_joints;
-        const bool mirrored = !skinned && glm::determinant(glm::mat3(state.world_from_node[n])) < 0;
-        for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
-            const Primitive& primitive = state.face.primitives[mesh.first_primitive + p];
-            if (primitive.index_count == 0 || blends(state, primitive) != blended) continue;
-            draw_primitive(state, primitive, skinned ? state.face.nodes.size() : n, mirrored);
-        }
-    }
-}
-
-void shade(CharacterState& state, const FrameGraph& graph) {
+/// Attaches what shading writes and clears it.
+void bind_targets(CharacterState& state, const FrameGraph& graph) {
     const View& view = *state.view;
     const GLuint framebuffer = state.scene_framebuffer.name();
-    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, graph[state.resources.scene_color_multisampled].handle,
-                              0);
-    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, graph[state.resources.scene_depth].handle, 0);
+    const std::size_t count = state.on(scattering_effect) ? 4 : 1;
+    const FrameResources& resources = state.resources;
+    const std::array<ResourceId, 4> targets = {resources.scene_color_multisampled, resources.to_resolve[1].from,
+                                               resources.to_resolve[2].from, resources.to_resolve[3].from};
+    std::array<GLenum, 4> buffers{};
+    const std::array<float, 4> nothing{};
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const auto attachment = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
+        glNamedFramebufferTexture(framebuffer, attachment, i < count ? graph[targets[i]].handle : 0, 0);
+        buffers[i] = attachment;
+    }
+    glNamedFramebufferDrawBuffers(framebuffer, static_cast<GLsizei>(count), buffers.data());
+    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, graph[resources.scene_depth].handle, 0);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, static_cast<GLsizei>(view.width), static_cast<GLsizei>(view.height));
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, &view.background_linear.x);
+    for (std::size_t i = 1; i < count; ++i) {
+        glClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(i), nothing.data());
+    }
     const float far_depth = 1;
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_depth);
+}
 
-    const shared::FrameBlock block = frame_block(state.camera);
+void shade(CharacterState& state, const FrameGraph& graph) {
+    const std::uint32_t bits = frame_bits(state);
+    [[maybe_unused]] const Status prepared = state.model.prepare(state.face, state.skin_material, bits);
+    assert(prepared && "shade: a permutation of face.frag does not compile");
+    bind_targets(state, graph);
+
+    const shared::FrameBlock block = frame_block(state);
     glNamedBufferSubData(state.model.frame_block.name(), 0, sizeof(block), &block);
     write_draw_blocks(state);
     glBindBufferBase(GL_UNIFORM_BUFFER, BLUSH_FRAME_BINDING, state.model.frame_block.name());
     state.model.bind_surface(*state.surface);
+    bind_maps(state, bits);
 
     glEnable(GL_DEPTH_TEST);
-    draw_nodes(state, false);
+    draw_nodes(state, false, bits);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    // What blends over skin takes its share of the light that scatters, and adds none.
+    for (GLuint i = 1; i < 4; ++i) glBlendFunci(i, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
     glBlendEquation(GL_FUNC_ADD);
     glDepthMask(GL_FALSE);
-    draw_nodes(state, true);
+    draw_nodes(state, true, bits);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
@@ -126,9 +152,13 @@ void declare_shade(CharacterState& state) {
     state.graph.pass("shade", [&state](const FrameGraph& graph) { shade(state, graph); })
         .reads(state.resources.positions)
         .reads(state.resources.normals)
-        .reads(state.resources.tangents)
-        .writes(state.resources.scene_color_multisampled)
-        .writes(state.resources.scene_depth);
+        .reads(state.resources.tangents);
+    if (state.shadows_shown) state.graph.reads(state.resources.shadow_maps);
+    if (state.on(blood_effect)) state.graph.reads(state.resources.blood_change);
+    for (std::size_t i = 0; i < state.resources.resolve_count; ++i) {
+        state.graph.writes(state.resources.to_resolve[i].from);
+    }
+    state.graph.writes(state.resources.scene_depth);
 }
 
 }  // namespace blush

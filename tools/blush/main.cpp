@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     blush::tool::add_render(app, exit_status);
     blush::tool::add_play(app, exit_status);
     blush::tool::add_explain(app, exit_status);
+    blush::tool::add_kernel(app, exit_status);
     blush::tool::add_accuracy(app, exit_status);
     blush::tool::add_controls(app, exit_status);
     blush::tool::add_lint(app, exit_status);

@@ -8,7 +8,9 @@
 #include <memory>
 
 #include "rig/names.h"
+#include "rig/skin_material.h"
 #include "runtime/face_file.h"
+#include "runtime/lighting_file.h"
 #include "runtime/rig_description_file.h"
 
 namespace blush::tool {
@@ -152,6 +154,36 @@ Status PoseOptions::apply_settings(Character& character) const {
     return Done{};
 }
 
+void LightOptions::add_to(CLI::App& command) {
+    command.add_option("--lights", lights, "front, side, behind, or a .json file (docs/skin.md)");
+    command.add_option("--environment", environment, "A radiance map, .hdr or .exr in equal longitudes and latitudes");
+    command.add_option("--environment-turn", environment_turn_degrees, "Turns the environment about +Y, degrees")
+        ->check(number_from(-360, 360));
+    command.add_option("--environment-factor", environment_factor, "Factor on its radiance")
+        ->check(number_from(0, 1e4));
+}
+
+Result<std::optional<Lighting>> LightOptions::lighting(Character& character) const {
+    if (lights.empty() && environment.empty()) return std::optional<Lighting>();
+    Lighting result;
+    if (!lights.empty()) {
+        const Bounds bounds = moving_bounds(character.face());
+        Result<Lighting> read = fs::path(lights).extension() == ".json"
+                                    ? read_lighting(lights, bounds, millimetres_a_unit(bounds))
+                                    : named_lighting(lights);
+        if (!read) return Error{"--lights: " + read.error().message};
+        result = *std::move(read);
+    }
+    if (!environment.empty()) {
+        Result<std::shared_ptr<const Environment>> read = read_environment(environment);
+        if (!read) return Error{"--environment: " + read.error().message};
+        result.environment = *std::move(read);
+        result.environment_turn_radians = glm::radians(environment_turn_degrees);
+        result.environment_factor = environment_factor;
+    }
+    return std::optional<Lighting>(std::move(result));
+}
+
 Result<RigDescription> describe_rig(const Face& face, const PoseOptions& pose) {
     return find_rig_description(face, pose.rig_file);
 }
@@ -162,12 +194,15 @@ Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const Po
     if (!face) return face.error();
     const Result<RigDescription> description = describe_rig(*face, pose);
     if (!description) return description.error();
+    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face->path));
+    if (!appearance) return appearance.error();
     Result<Device> device = Device::headless();
     if (!device) return device.error();
     Result<Character> character = Character::create(*device, *std::move(face), *description);
     if (!character) return character.error();
     auto stage = std::make_unique<Stage>(Stage{*std::move(device), *std::move(character)});
     Character& ready = stage->character;
+    ready.set_appearance(*std::move(appearance));
     if (Status set = pose.apply(ready.face(), ready.rig(), ready.controls()); !set) return set.error();
     if (Status set = pose.apply_settings(ready); !set) return set.error();
     return stage;

@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/character.h"
+#include "runtime/lighting.h"
 
 namespace blush::tool {
 
@@ -47,6 +49,16 @@ struct PoseOptions {
     Status apply_settings(Character& character) const;
 };
 
+/// --lights, --environment: what lights a frame.
+struct LightOptions {
+    std::string lights, environment;
+    float environment_turn_degrees = 0, environment_factor = 1;
+
+    void add_to(CLI::App& command);
+    /// Nothing when neither is given: the frame's own lights. Error: a file or a name that is not what it should be.
+    Result<std::optional<Lighting>> lighting(Character& character) const;
+};
+
 /// A headless device and a character with its pose set.
 struct Stage {
     Device device;
@@ -79,5 +91,6 @@ void add_antialias(CLI::App& app, int& exit_status);
 void add_bake_appearance(CLI::App& bake_command, int& exit_status);
 void add_bake_wrinkles(CLI::App& bake_command, int& exit_status);
 void add_bake_smaa_tables(CLI::App& bake_command, int& exit_status);
+void add_kernel(CLI::App& app, int& exit_status);
 
 }  // namespace blush::tool

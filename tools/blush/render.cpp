@@ -15,7 +15,8 @@ struct Options {
     PoseOptions pose;
     PerformOptions perform;
     bool check_finite = false, force_effects = false;
-    float yaw_degrees = 0, pitch_degrees = 0, exposure = 1;
+    float yaw_degrees = 0, pitch_degrees = 0, exposure = 1, zoom = 1;
+    LightOptions light;
 };
 
 int render(const Options& options) {
@@ -43,7 +44,11 @@ int render(const Options& options) {
     orbit.yaw_radians = glm::radians(options.yaw_degrees);
     orbit.pitch_radians = glm::radians(options.pitch_degrees);
     View view = offscreen->view();
+    orbit.distance /= options.zoom;
     view.camera = orbit.camera(aspect);
+    Result<std::optional<Lighting>> lighting = options.light.lighting(character);
+    if (!lighting) return fail(lighting.error());
+    if (*lighting) view.lighting = &**lighting;
     view.exposure = options.exposure;
     view.check_finite = options.check_finite;
     view.force_effects = options.force_effects;
@@ -66,6 +71,9 @@ void add_render(CLI::App& app, int& exit_status) {
     command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left")
         ->check(number_from(-360, 360));
     command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
+    command->add_option("--zoom", options->zoom, "How many times closer the camera stands")
+        ->check(number_from(0.01, 100));
+    options->light.add_to(*command);
     command->add_option("--exposure", options->exposure, "Factor on radiance")->check(number_from(1e-4, 1e4));
     command
         ->add_option("-o,--output", options->output,

@@ -1,0 +1,65 @@
+/// Reflection at the surface of skin (chappuis-2011, 2.3 and 2.6). Shading does it.
+
+#include <array>
+
+#include "runtime/character_state.h"
+#include "runtime/effect.h"
+#include "runtime/effects/frame_study.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<std::string_view, 2> model_choices = {"kelemen", "ggx"};
+constexpr std::array<Setting, 3> settings = {{
+    {"model",
+     "kelemen: Kelemen/Szirmay-Kalos with Beckmann's distribution, and light inside is what the surface leaves; ggx: "
+     "the "
+     "metallic-roughness model of the other materials",
+     model_choices, 0},
+    {"roughness",
+     "Beckmann's m of skin whose material has roughness 0.5; others in proportion",
+     {},
+     0,
+     0.08,
+     0.95,
+     0.3},
+    {"intensity", "factor on the surface's reflection; 0: all light enters", {}, 0, 0, 1, 1},
+}};
+
+Need need(const CharacterState& state) {
+    if (!state.facts.has_skin) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
+    if (state.settings.choice("reflection", "model") == 1) {
+        return {.on = false, .reason = "reflection.model is ggx", .can_be_forced = false};
+    }
+    if (!state.facts.skin_on_screen) return {.on = false, .reason = "no skin is on the screen"};
+    return {.on = true, .reason = "skin is on the screen"};
+}
+
+std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
+    return frame_study(device, face, millimetres_a_unit,
+                       {"reflection.model", {"kelemen", "ggx"}, 0, "kelemen", nullptr});
+}
+
+constexpr std::array<HardCase, 1> hard_cases = {{
+    {"roughness of 0 and of 1", "finite highlights",
+     [](Face& face) {
+         for (Material& material : face.materials) material.roughness = 0;
+         face.materials.push_back(face.materials[0]);
+         face.materials.back().roughness = 1;
+     }},
+}};
+
+}  // namespace
+
+const Effect reflection_effect = {
+    .name = "reflection",
+    .what = "skin's oily surface mirrors light and lets the rest in",
+    .settings = settings,
+    .stage = Stage::light,
+    .need = need,
+    .declare = [](CharacterState&) {},
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

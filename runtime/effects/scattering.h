@@ -1,0 +1,27 @@
+#pragma once
+/// What the scattering effect, its studies and the frame share.
+
+#include <vector>
+
+#include "rig/separable_kernel.h"
+#include "runtime/character_state.h"
+#include "runtime/effect.h"
+#include "runtime/scatter_passes.h"
+
+namespace blush {
+
+/// Textures that a study wants the frame's input of the scattering copied to; 0: none.
+struct ScatterCapture {
+    GLuint light = 0, albedo = 0, depth = 0;
+};
+
+/// The kernel that the settings ask for.
+KernelShape scatter_kernel_shape(const CharacterState& state);
+/// Step of depth that light does not cross; 0: it crosses all.
+double scatter_follow_mm(const CharacterState& state);
+/// Size of a millimetre on a view's screen.
+ScatterProjection scatter_projection(const View& view, double millimetres_a_unit);
+
+std::vector<Study> scattering_studies(const Device& device, const Face& face, double millimetres_a_unit, bool quick);
+
+}  // namespace blush

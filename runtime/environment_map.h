@@ -1,0 +1,14 @@
+#pragma once
+/// The environment of a frame on the GPU.
+
+#include "runtime/character_state.h"
+
+namespace blush {
+
+/// Fills the block's coefficients. The lighting must have an environment.
+void write_environment(const CharacterState& state, shared::FrameBlock& block);
+
+/// Binds the filtered map, made when the environment is another one than last time.
+void bind_environment(CharacterState& state);
+
+}  // namespace blush

@@ -1,0 +1,53 @@
+#pragma once
+/// What lights a frame, as data: a View without one has three lights of a portrait that follow its camera.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "rig/face.h"
+#include "rig/spherical_harmonics.h"
+
+namespace blush {
+
+enum class LightKind : std::uint8_t { directional, point, spot };
+
+struct LightSource {
+    LightKind kind = LightKind::directional;
+    glm::vec3 position_world{0};          ///< of a point or a spot
+    glm::vec3 direction_world{0, 0, -1};  ///< the way it shines, any length above 0; of a directional light or a spot
+    /// Irradiance on a facing surface / pi, so that white reflects this radiance; 0 or more. Of a point or a spot at
+    /// `reference_distance`.
+    glm::vec3 radiance_linear{1};
+    float reference_distance = 1;  ///< world units, above 0
+    float inner_radians = 0.4F;    ///< half angle of a spot's full light, below `outer_radians`
+    float outer_radians = 0.5F;    ///< half angle of a spot's end, above 0 and below pi / 2
+    bool casts_shadow = true;      ///< and shines through thin parts
+};
+
+/// A radiance map in equal longitudes and latitudes (rig/spherical_harmonics.h), prepared once.
+struct Environment {
+    Sh9Color radiance_sh{};  ///< of the map
+    /// The map filtered for mirrors of roughness 0 to 1 in equal steps, rgb; level k is 2^k times smaller.
+    struct Level {
+        std::uint32_t width = 0, height = 0;
+        std::vector<float> rgb_linear;
+    };
+    std::vector<Level> levels;
+    std::uint64_t identity = 0;  ///< differs from environment to environment
+};
+
+/// Prepares a radiance map. What is not finite or is below 0 counts as 0. Error: an image without pixels.
+Result<std::shared_ptr<const Environment>> make_environment(const Image& image);
+
+struct Lighting {
+    /// At most 8 (BLUSH_MOST_LIGHTS) are used; one that is dark, not finite or without a direction is left out.
+    std::vector<LightSource> lights;
+    glm::vec3 sky_radiance_linear{0}, ground_radiance_linear{0};  ///< ambient; not used with an environment
+    std::shared_ptr<const Environment> environment;
+    float environment_factor = 1, environment_turn_radians = 0;
+};
+
+}  // namespace blush

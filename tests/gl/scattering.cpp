@@ -1,0 +1,281 @@
+// Scattering on the GPU: its CPU twin, its laws, and what it must not touch.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include <glm/gtc/packing.hpp>
+
+#include "rig/scatter_image.h"
+#include "runtime/character_state.h"
+#include "runtime/scatter_passes.h"
+#include "tests/gl_fixture.h"
+
+namespace blush {
+namespace {
+
+constexpr std::uint32_t width = 48, height = 40;
+
+double half(double value) { return glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(value))); }
+
+/// A skin image with an oval matte, a slope, a step of depth and stripes of light, as half floats hold it.
+SkinImage striped() {
+    SkinImage image;
+    image.width = width;
+    image.height = height;
+    for (std::uint32_t y = 0; y < height; ++y) {
+        for (std::uint32_t x = 0; x < width; ++x) {
+            const double dx = (x - 23.5) / 22, dy = (y - 19.5) / 18;
+            const double inside = dx * dx + dy * dy;
+            const double matte = inside < 0.8 ? 1 : inside < 1 ? 0.5 : 0;
+            const double stripe = (x / 7 + y / 9) % 2 == 0 ? 1.4 : 0.15;
+            const double depth = 480 + 0.4 * x + (y > 28 ? 30 : 0);
+            image.light.emplace_back(half(matte * stripe), half(matte * 0.7 * stripe), half(matte * 0.5 * stripe),
+                                     matte);
+            image.depth_mm.push_back(static_cast<double>(static_cast<float>(matte * depth)));
+        }
+    }
+    return image;
+}
+
+class Scattering : public test::GlTest {
+protected:
+    gl::Texture texture(GLenum format) const {
+        gl::Texture made = gl::make_texture(GL_TEXTURE_2D);
+        glTextureStorage2D(made.name(), 1, format, width, height);
+        glTextureParameteri(made.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTextureParameteri(made.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(made.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        return made;
+    }
+
+    /// What `run` adds to a scene of 0 under a white albedo (times the matte): rgb of every pixel.
+    std::vector<glm::vec3> scattered(
+        const SkinImage& image, const ScatterProjection& projection, double follow_mm,
+        const std::function<void(ScatterPasses&, const ScatterInput&, const ScatterScratch&, GLuint)>& run) {
+        std::vector<glm::vec4> light, albedo;
+        std::vector<float> depth;
+        for (std::size_t p = 0; p < image.light.size(); ++p) {
+            light.emplace_back(image.light[p]);
+            albedo.emplace_back(glm::vec3(static_cast<float>(image.light[p].a)), 1.0F);
+            depth.push_back(static_cast<float>(image.depth_mm[p]));
+        }
+        const gl::Texture light_texture = texture(GL_RGBA16F), albedo_texture = texture(GL_RGBA16F),
+                          depth_texture = texture(GL_R32F), scene = texture(GL_RGBA32F), first = texture(GL_RGBA16F),
+                          second = texture(GL_RGBA16F), third = texture(GL_RGBA16F),
+                          stencil = texture(GL_STENCIL_INDEX8);
+        const auto upload = [](const gl::Texture& to, GLenum format, const void* data) {
+            glTextureSubImage2D(to.name(), 0, 0, 0, width, height, format, GL_FLOAT, data);
+        };
+        upload(light_texture, GL_RGBA, light.data());
+        upload(albedo_texture, GL_RGBA, albedo.data());
+        upload(depth_texture, GL_RED, depth.data());
+        ScatterInput input;
+        input.light = light_texture.name();
+        input.albedo = albedo_texture.name();
+        input.depth = depth_texture.name();
+        input.width = width;
+        input.height = height;
+        input.projection = projection;
+        input.follow_mm = follow_mm;
+        ScatterPasses passes;
+        run(passes, input, {first.name(), second.name(), third.name(), stencil.name()}, scene.name());
+        std::vector<glm::vec4> out(image.light.size());
+        glGetTextureImage(scene.name(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(out.size() * sizeof(out[0])),
+                          out.data());
+        return {out.begin(), out.end()};
+    }
+
+    static void expect_twin(const SkinImage& image, const std::vector<glm::vec3>& gpu,
+                            const std::vector<glm::dvec3>& cpu, double tolerance) {
+        double worst = 0;
+        for (std::size_t p = 0; p < gpu.size(); ++p) {
+            for (glm::length_t c = 0; c < 3; ++c) {
+                worst = std::max(worst, std::abs(static_cast<double>(gpu[p][c]) - cpu[p][c] * image.light[p].a));
+            }
+        }
+        EXPECT_LE(worst, tolerance);
+    }
+};
+
+// Two half floats are rounded on the way (the light between the passes, at most 1.4: half an ulp is 0.0005), and a
+// sampler's weights have at least 8 bits (1/512 of a step of 1.25).
+constexpr double half_float_tolerance = 4e-3;
+const ScatterProjection close_up{glm::dvec2(5 * 480.0), 1};
+
+TEST_F(Scattering, SeparablePassesAreTheirTwin) {
+    const SkinImage image = striped();
+    for (const std::uint32_t samples : {9U, 17U, 25U, 33U}) {
+        for (const double follow_mm : {0.0, 10.0}) {
+            const std::vector<KernelTap> taps = separable_kernel(skin_kernel_shape(), samples);
+            const auto gpu =
+                scattered(image, close_up, follow_mm,
+                          [&](ScatterPasses& passes, const ScatterInput& input, const ScatterScratch& scratch,
+                              GLuint scene) { passes.separable(input, taps, scratch, scene); });
+            expect_twin(image, gpu, scatter_separable(image, taps, close_up, follow_mm), half_float_tolerance);
+        }
+    }
+}
+
+TEST_F(Scattering, GaussianPassesAreTheirTwin) {
+    const SkinImage image = striped();
+    for (const auto profile : {skin_four_gaussians(), skin_six_gaussians()}) {
+        // The far camera leaves narrow Gaussians out.
+        for (const ScatterProjection& projection : {close_up, ScatterProjection{glm::dvec2(1 * 480.0), 1}}) {
+            const auto gpu =
+                scattered(image, projection, 0,
+                          [&](ScatterPasses& passes, const ScatterInput& input, const ScatterScratch& scratch,
+                              GLuint scene) { passes.gaussians(input, profile, scratch, scene); });
+            // Ten passes round instead of two.
+            expect_twin(image, gpu, scatter_gaussians(image, profile, projection), 3 * half_float_tolerance);
+        }
+    }
+}
+
+TEST_F(Scattering, JitteredPassIsItsTwin) {
+    const SkinImage image = striped();
+    const JitteredKernel kernel = jittered_kernel(skin_six_gaussians());
+    const auto gpu = scattered(image, close_up, 10,
+                               [&](ScatterPasses& passes, const ScatterInput& input, const ScatterScratch&,
+                                   GLuint scene) { passes.jittered(input, kernel, scene); });
+    expect_twin(image, gpu, scatter_jittered(image, kernel, close_up, 10), half_float_tolerance);
+}
+
+TEST_F(Scattering, ConstantLightStaysToTheLastBit) {
+    SkinImage image = striped();
+    for (glm::dvec4& light : image.light)
+        light = glm::dvec4(half(0.7123), half(0.4321), half(0.2222), 1) * (light.a > 0 ? 1.0 : 0.0);
+    for (std::size_t p = 0; p < image.light.size(); ++p) image.depth_mm[p] = image.light[p].a > 0 ? 480 : 0;
+    const auto expect_constant = [&](const std::vector<glm::vec3>& out) {
+        for (std::size_t p = 0; p < out.size(); ++p) {
+            ASSERT_EQ(out[p], glm::vec3(image.light[p])) << "pixel " << p;
+        }
+    };
+    for (const std::uint32_t samples : {9U, 17U, 25U, 33U}) {
+        const std::vector<KernelTap> taps = separable_kernel(skin_kernel_shape(), samples);
+        expect_constant(scattered(image, close_up, 10,
+                                  [&](ScatterPasses& passes, const ScatterInput& input, const ScatterScratch& scratch,
+                                      GLuint scene) { passes.separable(input, taps, scratch, scene); }));
+    }
+    for (const auto profile : {skin_four_gaussians(), skin_six_gaussians()}) {
+        const auto out = scattered(image, close_up, 0,
+                                   [&](ScatterPasses& passes, const ScatterInput& input, const ScatterScratch& scratch,
+                                       GLuint scene) { passes.gaussians(input, profile, scratch, scene); });
+        for (std::size_t p = 0; p < out.size(); ++p) {
+            for (glm::length_t c = 0; c < 3; ++c) {
+                // Blending adds w x and (1 - w) x, which may miss x by one bit of the half float it is stored in.
+                ASSERT_NEAR(out[p][c], static_cast<float>(image.light[p][c]), 0.5 / 1024) << "pixel " << p;
+            }
+        }
+    }
+    expect_constant(
+        scattered(image, close_up, 10,
+                  [&](ScatterPasses& passes, const ScatterInput& input, const ScatterScratch&, GLuint scene) {
+                      passes.jittered(input, jittered_kernel(skin_six_gaussians()), scene);
+                  }));
+}
+
+// --- in whole frames
+// ---------------------------------------------------------------------------------------------------
+
+/// A face of skin with a strip of something else across its middle.
+Face half_skin() {
+    Face face = test::make_face({.targets = 0, .two_primitives = true});
+    face.materials.push_back(face.materials[0]);
+    face.materials[1].name = "teeth";
+    face.primitives[1].material = 1;
+    for (glm::vec3& position : face.positions) position *= 0.05F;  // a tenth of a metre: half a head
+    return face;
+}
+
+View close_view(const Character& character, const Offscreen& offscreen, std::uint32_t samples) {
+    View view = test::framed_view(character, offscreen);
+    OrbitCamera camera = character.framing(1);
+    camera.distance *= 0.5F;
+    view.camera = camera.camera(1);
+    view.samples = samples;
+    return view;
+}
+
+TEST_F(Scattering, NoOtherPixelChangesByABit) {
+    Character with = make_character(half_skin()), without = make_character(half_skin());
+    ASSERT_TRUE(with.set("scattering.millimetres_a_unit", "1000"));
+    ASSERT_TRUE(without.set("scattering.millimetres_a_unit", "1000"));
+    ASSERT_TRUE(without.set("scattering.method", "off"));
+    const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
+    for (const std::uint32_t samples : {1U, 4U}) {
+        const View view = close_view(with, offscreen, samples);
+        const Image on = test::draw(with, offscreen, view), off = test::draw(without, offscreen, view);
+        std::size_t differing_skin = 0, same = 0;
+        for (std::uint32_t y = 0; y < 64; ++y) {
+            for (std::uint32_t x = 0; x < 64; ++x) {
+                const std::size_t at = 4 * (std::size_t{y} * 64 + x);
+                const bool equal = std::equal(&on.floats[at], &on.floats[at] + 4, &off.floats[at]);
+                // add_grid puts the first primitive, the skin, at -x.
+                if (x > 33) {
+                    ASSERT_TRUE(equal) << "pixel " << x << ", " << y << " at " << samples << " samples";
+                    ++same;
+                } else {
+                    differing_skin += equal ? 0U : 1U;
+                }
+            }
+        }
+        EXPECT_GT(differing_skin, 500U);
+        EXPECT_GT(same, 1000U);
+    }
+}
+
+TEST_F(Scattering, NoLightOfABrightBackgroundReachesTheSkin) {
+    Face face = test::make_face({.targets = 0});
+    for (glm::vec3& position : face.positions) position *= 0.1F;
+    const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
+    for (const std::uint32_t samples : {1U, 2U, 4U}) {
+        Character character = make_character(face);
+        View view = test::framed_view(character, offscreen);
+        view.samples = samples;
+        view.background_linear = glm::vec4(0, 0, 0, 1);
+        const Image dark = test::draw(character, offscreen, view);
+        constexpr float bright = 1000;
+        view.background_linear = glm::vec4(bright, bright, bright, 1);
+        const Image lit = test::draw(character, offscreen, view);
+        std::size_t checked = 0;
+        for (std::size_t p = 0; p < dark.floats.size(); p += 4) {
+            const float before = dark.floats[p];
+            const float gained = lit.floats[p] - before;
+            // A pixel that the background shares has its share of it; what is beyond any share must not be there.
+            if (before == 0 || gained > 1.0F / 5 * bright) continue;  // an outline pixel of at least one sample in four
+            EXPECT_LE(std::abs(gained), 0.001F * bright) << "pixel " << p / 4 << " at " << samples << " samples";
+            ++checked;
+        }
+        EXPECT_GT(checked, 500U);
+    }
+}
+
+TEST_F(Scattering, LeftOutFarAwayItChangesThePictureWithinItsBound) {
+    Character character = make_character(test::make_face({.targets = 0, .normal_map = true}));
+    const Offscreen offscreen = make_offscreen(48, 48, Output::linear_hdr);
+    View view = test::framed_view(character, offscreen);
+    OrbitCamera camera = character.framing(1);
+    camera.distance *= 1.5F;
+    view.camera = camera.camera(1);
+    const Image without = test::draw(character, offscreen, view);
+    const auto& effects = character.state().report.effects;
+    const auto report = *std::ranges::find(effects, "scattering", &EffectReport::effect);
+    ASSERT_FALSE(report.on);
+    EXPECT_EQ(report.reason, "the kernel ends within half a pixel of its centre");
+    ASSERT_EQ(report.omission, Omission::bounded);
+    view.force_effects = true;
+    const Image with = test::draw(character, offscreen, view);
+    float worst = 0, brightest = 0;
+    for (std::size_t i = 0; i < with.floats.size(); ++i) {
+        if (i % 4 == 3) continue;
+        worst = std::max(worst, std::abs(with.floats[i] - without.floats[i]));
+        brightest = std::max(brightest, without.floats[i]);
+    }
+    EXPECT_GT(worst, 0.0F);
+    EXPECT_LE(static_cast<double>(worst / brightest), report.bound);
+}
+
+}  // namespace
+}  // namespace blush
