@@ -60,10 +60,9 @@ constexpr ExpressionRow action_units[] = {
     {"AU64", "eyes down", "eyeLookDownLeft 1, eyeLookDownRight 1, leftEyePitch 0.55, rightEyePitch 0.55"},
 };
 
-/// The six of Ekman. Which units: the prototypes of EMFACS (Ekman, Friesen, Hager 2002, Investigator's Guide, table
-/// 10-2), which agree with those counted by Lucey et al. 2010 (CK+, table 1) and Du, Tao, Martinez 2014 (table 1).
-/// Units that these list as frequent but not constant have the lower weights. The intensities within a prototype are
-/// ours, set by eye.
+/// The six of Ekman. Which units: the prototypes of FACS (Ekman, Friesen 1978, table 11-1; EMFACS), which agree with
+/// those counted by Lucey et al. 2010 (CK+, table 1) and Du, Tao, Martinez 2014 (table 1). Units that come with them
+/// often but not always have the lower weights. The intensities within a prototype are ours, set by eye.
 constexpr ExpressionRow emotions[] = {
     {"joy", "6+12+25, with 26: a Duchenne smile", "AU6 0.8, AU12 0.9, AU25 0.65, AU26 0.1"},
     {"sadness", "1+4+15, with 11 and 17", "AU1 0.9, AU4 0.35, AU15 0.75, AU11 0.3, AU17 0.45, AU43 0.15, AU64 0.2"},
@@ -93,7 +92,8 @@ constexpr CompoundRow compounds[] = {
     {"contempt", "a one-sided 12+14 (Ekman, Friesen 1986)", "AU14_L 0.8, AU12_L 0.3", ""},
     {"laughter", "6+12+25+26, the head going back", "AU6 1, AU12 1, AU25 0.7, AU26 0.75, AU53 0.25", "joy 1"},
     {"pain", "4+6+7+9+10+43 (Prkachin, Solomon 2008)", "AU4 0.9, AU6 0.7, AU7 0.7, AU9 0.5, AU10 0.4, AU43 0.5", ""},
-    // Du, Tao, Martinez 2014, table 1: units of more than 70 % of the subjects, and, at less, those of more than half.
+    // Du, Tao, Martinez 2014, table 1: named in the text, the units of more than 70 % of the subjects; with lower
+    // weights, some of those that vary between subjects.
     {"happilySurprised", "Du et al. 2014: 1+2+12+25", "AU1 0.9, AU2 0.9, AU12 0.85, AU25 0.6, AU5 0.4, AU26 0.6",
      "joy 0.5, surprise 0.5"},
     {"happilyDisgusted", "Du et al. 2014: 10+12+25", "AU10 0.6, AU12 0.75, AU25 0.4, AU6 0.5, AU9 0.5",

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <exception>
 #include <initializer_list>
+#include <iterator>
 #include <set>
 #include <string>
+#include <unordered_map>
 
 #include "rig/names.h"
 #include "runtime/load/bad_file.h"
@@ -28,7 +30,11 @@ std::string member(const std::string& place, std::string_view key) {
 /// One file laid over a description. Refuses with BadFile.
 class Reader {
 public:
-    explicit Reader(RigDescription& into) : into_(into) {}
+    explicit Reader(RigDescription& into) : into_(into) {
+        for (std::size_t i = 0; i < into.expressions.size(); ++i) {
+            expression_at_.emplace(canonical_name(into.expressions[i].name), i);
+        }
+    }
 
     void read(const Json& root) {
         if (!root.is_object()) refuse("", std::string("a rig must be an object, not ") + root.type_name());
@@ -113,13 +119,13 @@ private:
             for (const auto& [control, weight] : object(need(value, place, "drives"), drives).items()) {
                 expression.drives.push_back({control, number(weight, member(drives, control))});
             }
-            const auto same = std::ranges::find(into_.expressions, canonical_name(key),
-                                                [](const Expression& known) { return canonical_name(known.name); });
-            if (same == into_.expressions.end()) {
+            const auto [same, added] = expression_at_.emplace(canonical_name(key), into_.expressions.size());
+            if (added) {
                 into_.expressions.push_back(std::move(expression));
             } else {
-                expression.name = same->name;  // rows of wrinkles and hemoglobin go by it
-                *same = std::move(expression);
+                Expression& known = into_.expressions[same->second];
+                expression.name = known.name;  // rows of wrinkles and hemoglobin go by it
+                known = std::move(expression);
             }
         }
     }
@@ -159,6 +165,7 @@ private:
 
     void limits(const Json& list) {
         std::set<std::string> here;
+        std::vector<Limit> read;
         for (const auto& [key, value] : object(list, "limits").items()) {
             const std::string place = member("limits", key);
             if (!here.insert(canonical_name(key)).second) refuse(place, "it is there twice");
@@ -169,10 +176,10 @@ private:
             if (const Json* high = find(value, "high")) limit.high = number(*high, place + ".high");
             if (const Json* with = find(value, "with")) limit.with = name(*with, place + ".with");
             if (const Json* own = find(value, "holds_own")) limit.holds_own = truth(*own, place + ".holds_own");
-            const std::string control = canonical_name(key);
-            std::erase_if(into_.limits, [&](const Limit& known) { return canonical_name(known.control) == control; });
-            into_.limits.push_back(std::move(limit));
+            read.push_back(std::move(limit));
         }
+        std::erase_if(into_.limits, [&](const Limit& known) { return here.contains(canonical_name(known.control)); });
+        std::ranges::move(read, std::back_inserter(into_.limits));
     }
 
     void wrinkles(const Json& part) {
@@ -192,6 +199,8 @@ private:
         }
         const Json* rows = find(part, "weights");
         if (rows == nullptr) return;
+        std::set<std::string> here;
+        std::vector<WrinkleRow> read;
         for (const auto& [key, value] : object(*rows, "wrinkles.weights").items()) {
             const std::string place = member("wrinkles.weights", key);
             WrinkleRow row;
@@ -200,16 +209,19 @@ private:
                 row.drivers.push_back(key.substr(start, end - start));
                 start = end + 1;
             }
+            if (!here.insert(folded(row.drivers)).second) refuse(place, "it is there twice");
             array(value, place);
             for (std::size_t i = 0; i < value.size(); ++i) row.weights.push_back(number(value[i], load::at(place, i)));
-            std::erase_if(into_.wrinkles,
-                          [&](const WrinkleRow& known) { return same_names(known.drivers, row.drivers); });
-            into_.wrinkles.push_back(std::move(row));
+            read.push_back(std::move(row));
         }
+        std::erase_if(into_.wrinkles, [&](const WrinkleRow& known) { return here.contains(folded(known.drivers)); });
+        std::ranges::move(read, std::back_inserter(into_.wrinkles));
     }
 
-    static bool same_names(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-        return std::ranges::equal(a, b, {}, canonical_name, canonical_name);
+    static std::string folded(const std::vector<std::string>& drivers) {
+        std::string joined;
+        for (const std::string& driver : drivers) joined += canonical_name(driver) + "+";
+        return joined;
     }
 
     void hemoglobin(const Json& part) {
@@ -221,23 +233,27 @@ private:
         }
         const Json* rows = find(part, "weights");
         if (rows == nullptr) return;
+        std::set<std::string> here;
+        std::vector<HemoglobinRow> read;
         for (const auto& [key, value] : object(*rows, "hemoglobin.weights").items()) {
             const std::string place = member("hemoglobin.weights", key);
+            if (!here.insert(canonical_name(key)).second) refuse(place, "it is there twice");
             only(object(value, place), place, {"maps", "factor"});
-            const std::string driver = canonical_name(key);
-            std::erase_if(into_.hemoglobin,
-                          [&](const HemoglobinRow& known) { return canonical_name(known.driver) == driver; });
             const Json* factor = find(value, "factor");
             const float on_all = factor == nullptr ? 1.0F : number(*factor, place + ".factor");
             const Json& maps = object(need(value, place, "maps"), place + ".maps");
             for (const auto& [map, share] : maps.items()) {
-                into_.hemoglobin.push_back({key, map, number(share, member(place + ".maps", map)), on_all});
+                read.push_back({key, map, number(share, member(place + ".maps", map)), on_all});
             }
         }
+        std::erase_if(into_.hemoglobin,
+                      [&](const HemoglobinRow& known) { return here.contains(canonical_name(known.driver)); });
+        std::ranges::move(read, std::back_inserter(into_.hemoglobin));
     }
 
     RigDescription& into_;
     std::set<std::string> expressions_here_;
+    std::unordered_map<std::string, std::size_t> expression_at_;  ///< by canonical name
 };
 
 /// Names come from the file: what would break a line or a terminal does not reach the message.

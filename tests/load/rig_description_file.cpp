@@ -129,6 +129,10 @@ TEST(RigFile, EveryFaultHasItsSentence) {
          "wrinkles.weights.joy: it must have one weight for each of the 8 zones, not 1"},
         {rig(R"("wrinkles": {"weights": {"joy+": [1, 1, 1, 1, 1, 1, 1, 1]}})"),
          "wrinkles.weights.joy+: there is no control ''"},
+        {rig(R"("wrinkles": {"weights": {"joy+fear": [1, 1, 1, 1, 1, 1, 1, 1], "Joy+fear": []}})"),
+         "wrinkles.weights.Joy+fear: it is there twice"},
+        {rig(R"("hemoglobin": {"weights": {"joy": {"maps": {}}, "Joy": {"maps": {}}}})"),
+         "hemoglobin.weights.Joy: it is there twice"},
         {rig(R"("hemoglobin": {"maps": ["joy"]})"), "hemoglobin.maps: 'joy' is there twice"},
         {rig(R"("hemoglobin": {"maps": ["neutral"]})"), "hemoglobin.maps: a map may not be named 'neutral'"},
         {rig(R"("hemoglobin": {"weights": {"joy": {"maps": {"rash": 1}}}})"),
@@ -138,6 +142,21 @@ TEST(RigFile, EveryFaultHasItsSentence) {
     const auto missing = load_rig_description("/no/such.rig.json", small_face());
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().message, "/no/such.rig.json: there is no such file");
+}
+
+TEST(RigFile, ThousandsOfEntriesTakeNoLongTime) {
+    std::string emotions, limits, wrinkles, hemoglobin;
+    for (int i = 0; i < 5'000; ++i) {
+        const std::string name = "e" + std::to_string(i), comma = i == 0 ? "" : ",";
+        emotions += comma + "\"" + name + "\": {\"drives\": {\"AU6\": 1}}";
+        limits += comma + "\"" + name + "\": {}";
+        wrinkles += comma + "\"" + name + "\": [0, 0, 0, 0, 0, 0, 0, 1]";
+        hemoglobin += comma + "\"" + name + "\": {\"maps\": {\"joy\": 1}}";
+    }
+    EXPECT_EQ(refusal(R"({"blush_rig": 1, "emotions": {)" + emotions + R"(}, "limits": {)" + limits +
+                      R"(}, "wrinkles": {"weights": {)" + wrinkles + R"(}}, "hemoglobin": {"weights": {)" + hemoglobin +
+                      "}}}"),
+              "(loads)");
 }
 
 TEST(RigFile, EveryTruncationHasASentence) {
