@@ -52,6 +52,21 @@
 #define BLUSH_OCCLUSION_UNIT 3
 #define BLUSH_EMISSIVE_UNIT 4
 #define BLUSH_SCENE_COLOR_UNIT 0
+// Of the antialiasing passes (runtime/antialias/).
+#define BLUSH_AA_COLOR_UNIT 0
+#define BLUSH_AA_DEPTH_UNIT 1
+#define BLUSH_AA_EDGES_UNIT 0
+#define BLUSH_AA_AREAS_UNIT 1
+#define BLUSH_AA_DIAGONAL_AREAS_UNIT 2
+#define BLUSH_AA_SEARCH_UNIT 3
+#define BLUSH_AA_WEIGHTS_UNIT 1
+
+// Layout of the antialiasing tables; runtime/antialias/ holds them to rig/antialias/.
+#define BLUSH_ORTHOGONAL_DISTANCES 64
+#define BLUSH_DIAGONAL_DISTANCES 20
+#define BLUSH_MLAA_DISTANCES 9
+#define BLUSH_SEARCH_TABLE_RIGHT 33
+#define BLUSH_FEWEST_DIAGONAL_EDGES 5
 
 struct Light {
     vec4 direction_world;  // xyz: unit vector towards the light; w unused
