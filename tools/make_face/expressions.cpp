@@ -175,7 +175,7 @@ public:
         add_whole("mouthRollUpper", [&](Index v) { return pulled(v, roll_upper); });
         add_whole("mouthShrugLower", [&](Index v) { return pulled(v, shrug_lower); });
         add_whole("mouthShrugUpper", [&](Index v) { return pulled(v, shrug_upper); });
-        add_sides("mouthSmile", [&](Index v) { return pulled(v, smile) + folded(v, 1); });
+        add_sides("mouthSmile", [&](Index v) { return pulled(v, smile * 0.88) + folded(v, 1); });
         add_sides("mouthStretch", [&](Index v) { return pulled(v, stretch); });
         add_sides("mouthUpperUp", [&](Index v) { return pulled(v, upper_up); });
         add_sides("noseSneer", [&](Index v) { return pulled(v, sneer) + folded(v, 0.5); });
