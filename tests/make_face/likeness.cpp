@@ -70,10 +70,9 @@ NearestSurface::NearestSurface(std::vector<glm::dvec3> positions, std::vector<gl
             for (int y = from.y; y <= to.y; ++y)
                 for (int x = from.x; x <= to.x; ++x) visit(cell({x, y, z}));
     };
-    first_.assign(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
-                          static_cast<std::size_t>(size_.z) +
-                      1,
-                  0);
+    first_.assign(
+        static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z) + 1,
+        0);
     for (const glm::uvec3& t : triangles_) each_cell(t, [&](std::size_t c) { ++first_[c + 1]; });
     for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
     list_.resize(first_.back());

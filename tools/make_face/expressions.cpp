@@ -47,7 +47,7 @@ double jaw_share(const Vec3& p, int lip) {
     const double local = 1 - std::pow(std::min(1.0, std::abs(p.x) / mouth_corner_x), 2.5);
     const double side = lip > 0 ? 0 : lip < 0 ? 1 : slope;
     const double share = mix(slope, side, local * smooth_step(50, 70, p.z));
-    return share * smooth_step(-14, 26, p.z) * smooth_step(-158, -112, p.y - 0.25 * p.z);
+    return share * smooth_step(-14, 58, p.z) * smooth_step(-158, -112, p.y - 0.25 * p.z);
 }
 
 class HeadModel {
@@ -80,66 +80,70 @@ public:
                              {{11, -69, 92}, {10, 9, 14}, {0, 1.6, 0.6}},
                              {{17, -86, 84}, {12, 9, 14}, {0, -2.0, 1.6}},
                              {{0, -94, 88}, {14, 9, 14}, {0, 2.4, 1.6}}};
-        const Pulls dimple = {{mouth_corner, {11, 11, 15}, {5.0, 1.2, -5.0}},
-                              {{38, -66, 68}, {10, 13, 14}, {2, 0.5, 1.6}}};
-        const Pulls stretch = {{mouth_corner, {15, 13, 18}, {8.5, -3.0, -5.5}},
-                               {{30, -92, 66}, {15, 14, 18}, {3, -3, -1}}};
+        const Pulls dimple = {{mouth_corner, {11, 11, 15}, {3.2, 3.4, -5.0}},
+                              {{38, -64, 68}, {10, 13, 14}, {-0.5, 1.6, 2.2}},
+                              {{12, -95, 88}, {16, 14, 16}, {0.8, 1.6, 0}}};
+        const Pulls stretch = {{mouth_corner, {15, 13, 18}, {8.0, -1.0, -6.0}},
+                               {{30, -92, 66}, {15, 14, 18}, {2, 1.0, -0.6}}};
         const Pulls upper_up = {{{10, -63, 94}, {11, 9, 14}, {0.6, 5.4, 0.8}, Pull::upper},
                                 {{14, -45, 92}, {9, 8, 12}, {0.8, 2.0, 0.5}},
                                 {{24, -48, 80}, {8, 10, 12}, {1.2, 2.4, 1.2}}};
-        const Pulls lower_down = {{{11, -74, 92},
-                                   {11, 9, 14},
-                                   {
-                                       1.2,
-                                       -5.8,
-                                       0.6,
-                                   },
-                                   Pull::lower},
-                                  {{14, -86, 86}, {12, 8, 12}, {0.5, -2.2, 0.4}}};
-        const Pulls sneer = {{{10, -28, 94}, {8, 11, 14}, {0.4, 5.2, 1.0}},
-                             {{14, -42, 94}, {7, 8, 11}, {1.8, 5.6, 0.2}},
-                             {{12, -62, 94}, {9, 8, 12}, {0.4, 3.4, 0.4}, Pull::upper},
-                             {{24, -34, 80}, {9, 9, 14}, {0.2, 4.0, 2.4}},
-                             {{9, 12, 88}, {9, 8, 12}, {-1.0, -2.6, 0.8}},
-                             {{14, -8, 82}, {8, 7, 10}, {-0.6, 1.6, 2.0}}};
-        const Pulls cheek_raise = {{{35, -28, 70}, {16, 12, 18}, {0.4, 6.2, 4.6}},
-                                   {{33, -15, 75}, {15, 5.5, 12}, {0, 3.4, 1.4}}};
-        const Pulls cheek_puff = {{{38, -62, 62}, {16, 17, 24}, {9.5, 0.4, 7.0}},
-                                  {{18, -58, 88}, {12, 8, 14}, {0.5, 0, 2.2}},
-                                  {{18, -82, 85}, {12, 8, 14}, {0.5, 0, 2.4}},
-                                  {{24, -69, 84}, {7, 8, 12}, {-1.2, 0, 0.6}}};
-        const Pulls brow_down = {{{14, 18, 88}, {13, 9, 14}, {-3.2, -6.8, 2.0}},
-                                 {{32, 21, 78}, {15, 9, 16}, {-0.8, -4.6, 0.6}},
-                                 {{34, 9, 80}, {15, 5, 12}, {0, -1.6, 0.6}}};
-        const Pulls brow_inner_up = {{{10, 20, 90}, {12.5, 11, 16}, {0.6, 8.2, 0.4}},
-                                     {{9, 42, 88}, {20, 14, 18}, {0, 3.6, 0.6}}};
+        const Pulls lower_down = {{{11, -74, 92}, {11, 9, 14}, {0.9, -5.2, -1.4}, Pull::lower},
+                                  {{10, -90, 88}, {14, 9, 14}, {0.8, -3.0, -2.0}}};
+        const Pulls sneer = {{{10, -28, 94}, {8, 11, 14}, {0.2, 4.4, 1.0}},
+                             {{14, -42, 94}, {7, 8, 11}, {1.2, 4.4, 0.2}},
+                             {{12, -62, 94}, {9, 8, 12}, {0.4, 3.0, 0.2}, Pull::upper},
+                             {{26, -40, 80}, {13, 15, 18}, {-1.0, 5.6, 2.4}},
+                             {{36, -60, 70}, {14, 16, 18}, {-1.0, 3.0, 1.8}},
+                             {mouth_corner, {12, 11, 15}, {-0.3, 3.0, 0.5}, Pull::upper},
+                             {{14, 16, 86}, {16, 9, 16}, {-0.6, -2.6, 0}}};
+        const Pulls cheek_raise = {{{35, -28, 70}, {16, 12, 18}, {-0.2, 4.8, 3.0}},
+                                   {{33, -15, 75}, {15, 5.5, 12}, {-0.8, 2.8, 1.4}},
+                                   {{54, -34, 50}, {15, 16, 20}, {0, 2.4, 2.0}},
+                                   {{44, -56, 58}, {15, 13, 18}, {0.8, 2.2, 0.6}},
+                                   {{36, 17, 78}, {17, 7, 14}, {0, -1.4, -0.3}}};
+        const Pulls cheek_puff = {{{38, -62, 62}, {16, 17, 24}, {5.0, 0.8, 9.0}},
+                                  {{18, -58, 88}, {12, 8, 14}, {-0.4, 0.4, 4.5}},
+                                  {{18, -82, 85}, {12, 8, 14}, {-0.4, -0.4, 4.5}},
+                                  {{26, -69, 84}, {8, 9, 13}, {-1.4, 0, 5.0}}};
+        const Pulls brow_down = {{{16, 18, 88}, {12, 8, 14}, {-2.4, -3.6, 1.6}},
+                                 {{36, 20, 76}, {16, 8.5, 18}, {-3.6, -3.6, 2.4}},
+                                 {{28, 44, 78}, {22, 15, 24}, {-0.9, -1.8, 0.8}},
+                                 {{54, 24, 58}, {13, 14, 18}, {-1.2, -0.4, 1.8}}};
+        const Pulls brow_inner_up = {{{10, 20, 90}, {12.5, 10, 16}, {0.4, 7.4, 0.6}},
+                                     {{9, 42, 88}, {20, 14, 18}, {0, 1.4, 0.8}}};
         const Pulls brow_outer_up = {{{36, 22, 72}, {16, 11, 20}, {0.6, 9.0, -0.4}},
                                      {{36, 42, 72}, {18, 14, 20}, {0, 3.0, 0.2}},
                                      {{36, 11, 78}, {14, 5, 12}, {0, 1.8, 0}}};
-        const Pulls press = {{{14, -60, 92}, {12, 5, 14}, {0.4, -1.5, -1.0}, Pull::upper},
-                             {{14, -78, 91}, {12, 6, 14}, {0.4, 1.8, -1.0}, Pull::lower},
-                             {mouth_corner, {9, 9, 12}, {1.0, 0.4, -2.2}}};
-        const Pulls pucker = {{mouth_corner, {14, 15, 18}, {-11.0, 0.3, 5.5}},
-                              {{12, -68, 92}, {9, 11, 14}, {-3.4, 0, 4.0}},
+        const Pulls press = {{{14, -60, 92}, {12, 5, 14}, {-0.2, -1.3, 0.2}, Pull::upper},
+                             {{14, -78, 91}, {12, 6, 14}, {0, 2.0, 1.0}, Pull::lower},
+                             {{8, -96, 86}, {14, 11, 15}, {0, 3.2, 1.7}},
+                             {{29, -68, 80}, {9, 9, 12}, {0.2, 1.4, 1.4}}};
+        const Pulls pucker = {{mouth_corner, {14, 15, 18}, {-8.0, 0.4, 6.0}},
+                              {{12, -68, 92}, {9, 11, 14}, {-2.2, 0, 4.0}},
+                              {{40, -60, 62}, {14, 15, 20}, {-1.0, 0.8, 2.6}},
                               {{0, -64, 95}, {11, 6, 14}, {0, 0, 3.2}, Pull::upper},
                               {{0, -75, 93}, {11, 7, 14}, {0, 0, 3.2}, Pull::lower}};
-        const Pulls funnel = {{mouth_corner, {13, 14, 18}, {-7.5, 0, 5.0}},
-                              {{13, -62, 93}, {11, 9, 14}, {-1.6, 3.6, 3.4}, Pull::upper},
-                              {{0, -62, 95}, {9, 8, 14}, {0, 2.4, 2.2}, Pull::upper},
-                              {{13, -76, 91}, {11, 9, 14}, {-1.6, -4.4, 3.6}, Pull::lower},
-                              {{0, -77, 92}, {9, 8, 14}, {0, -3.4, 2.2}, Pull::lower}};
+        const Pulls funnel = {{mouth_corner, {13, 14, 18}, {-5.0, 0, 5.6}},
+                              {{13, -62, 93}, {11, 9, 14}, {-1.0, 3.2, 3.8}, Pull::upper},
+                              {{0, -62, 95}, {9, 8, 14}, {0, 2.2, 2.4}, Pull::upper},
+                              {{13, -76, 91}, {11, 9, 14}, {-0.8, -4.8, 2.8}, Pull::lower},
+                              {{0, -77, 92}, {9, 8, 14}, {0, -3.8, 1.6}, Pull::lower},
+                              {{0, -95, 87}, {15, 11, 15}, {0, -1.6, -1.2}}};
         const Pulls roll_upper = {{{0, -60, 95}, {21, 5, 14}, {0, -3.2, -1.4}, Pull::upper},
                                   {{0, -65, 94}, {21, 6, 14}, {0, 0, -3.2}, Pull::upper}};
-        const Pulls roll_lower = {{{0, -79, 92}, {21, 6, 14}, {0, 3.6, -1.4}, Pull::lower},
-                                  {{0, -73, 93}, {21, 6.5, 14}, {0, 0, -3.4}, Pull::lower}};
+        const Pulls roll_lower = {{{0, -79, 92}, {21, 6, 14}, {0, 5.0, -1.4}, Pull::lower},
+                                  {{0, -73, 93}, {21, 6.5, 14}, {0, 0.6, -3.4}, Pull::lower},
+                                  {{0, -97, 87}, {16, 10, 15}, {0, 1.2, 1.8}}};
         const Pulls shrug_upper = {{{0, -60, 95}, {17, 7, 14}, {0, 1.8, 1.8}, Pull::upper},
                                    {{0, -68, 94}, {19, 11, 14}, {0, 2.8, 0.6}}};
         const Pulls shrug_lower = {{{0, -78, 92}, {18, 8, 14}, {0, 0.8, 3.2}, Pull::lower},
-                                   {{0, -94, 88}, {18, 13, 16}, {0, 4.6, 1.4}},
-                                   {{0, -69, 94}, {21, 11, 14}, {0, 3.0, 0.8}}};
-        const Pulls mouth_left = {{{8, -68, 90}, {26, 17, 22}, {8.5, 0.4, -0.6}},
-                                  {{-26, -69, 80}, {16, 16, 20}, {2.2, 0, 2.0}},
-                                  {{10, -92, 86}, {18, 12, 16}, {2.0, 0, 0}}};
+                                   {{0, -94, 88}, {18, 13, 16}, {0, 5.0, 1.8}},
+                                   {{0, -69, 94}, {21, 11, 14}, {0, 2.6, 0.8}}};
+        const Pulls mouth_left = {
+            {{8, -68, 90}, {26, 17, 22}, {9.0, 0.8, -2.0}},   {{27, -66, 82}, {14, 14, 18}, {1.0, 3.2, -2.6}},
+            {{36, -46, 68}, {16, 15, 20}, {1.0, 2.4, 0.6}},   {{-28, -69, 78}, {15, 15, 20}, {5.0, -0.4, 5.0}},
+            {{-42, -64, 60}, {15, 17, 20}, {3.0, -0.4, 3.6}}, {{10, -92, 86}, {18, 12, 16}, {2.4, 0.6, -0.6}}};
 
         add_sides("browDown", [&](Index v) { return pulled(v, brow_down); });
         add_whole("browInnerUp", [&](Index v) { return pulled(v, both_sides(brow_inner_up)); });
@@ -152,7 +156,8 @@ public:
         add_sides("eyeLookOut", [&](Index v) { return lids_.move(v, {.sideways_mm = 0.7}); });
         add_sides("eyeLookUp", [&](Index v) { return lids_.move(v, {.upper_degrees = 9, .lower_degrees = 3.5}); });
         add_sides("eyeSquint", [&](Index v) {
-            return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12}) + pulled(v, cheek_raise * 0.35);
+            return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12, .sideways_mm = -1.0}) +
+                   pulled(v, cheek_raise * 0.35);
         });
         add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 12, .lower_degrees = -3}); });
         add_whole("jawForward", [&](Index v) { return jaw_[v] * Vec3(0, -0.6, 6); });
@@ -170,7 +175,7 @@ public:
         add_whole("mouthRollUpper", [&](Index v) { return pulled(v, roll_upper); });
         add_whole("mouthShrugLower", [&](Index v) { return pulled(v, shrug_lower); });
         add_whole("mouthShrugUpper", [&](Index v) { return pulled(v, shrug_upper); });
-        add_sides("mouthSmile", [&](Index v) { return pulled(v, smile) + folded(v, 1); });
+        add_sides("mouthSmile", [&](Index v) { return pulled(v, smile * 0.88) + folded(v, 1); });
         add_sides("mouthStretch", [&](Index v) { return pulled(v, stretch); });
         add_sides("mouthUpperUp", [&](Index v) { return pulled(v, upper_up); });
         add_sides("noseSneer", [&](Index v) { return pulled(v, sneer) + folded(v, 0.5); });
@@ -192,7 +197,11 @@ private:
         const double hold = lining ? smooth_step(0.75, 0.1, tag.depth) : 1;
         Vec3 sum(0);
         for (const Pull& pull : pulls) {
-            double strength = bell(p, pull.centre, pull.widths) * hold;
+            // Skin is one sheet: what a muscle pulls drags its surroundings along, on its own side of the face.
+            constexpr double drag = 0.35, drag_reach = 2.3;
+            const double side = std::abs(pull.centre.x) < 6 ? 1 : smooth_step(-14, 8, pull.centre.x > 0 ? p.x : -p.x);
+            double strength = hold * ((1 - drag) * bell(p, pull.centre, pull.widths) +
+                                      drag * side * bell(p, pull.centre, pull.widths * drag_reach));
             if (strength < 1e-4) continue;
             if (pull.lips == Pull::upper) strength *= upper_share(p, lip, 7);
             if (pull.lips == Pull::lower) strength *= 1 - upper_share(p, lip, 7);

@@ -13,7 +13,7 @@ double hairline(double azimuth_degrees) {
     };
     constexpr Knot knots[] = {{0, 69},   {14, 70},   {27, 66},   {38, 56},   {48, 48},  {58, 40},
                               {66, 26},  {72, 0},    {77, -18},  {86, -16},  {90, 10},  {96, 22},
-                              {106, 16}, {113, -14}, {120, -52}, {140, -70}, {180, -76}};
+                              {106, 16}, {113, -10}, {120, -36}, {140, -50}, {180, -54}};
     for (std::size_t k = 1; k < std::size(knots); ++k) {
         if (azimuth_degrees > knots[k].azimuth) continue;
         const double t = (azimuth_degrees - knots[k - 1].azimuth) / (knots[k].azimuth - knots[k - 1].azimuth);
@@ -24,7 +24,7 @@ double hairline(double azimuth_degrees) {
 
 /// Millimetres above the hairline.
 double above_hairline(const Vec3& p) { return p.y - hairline(std::atan2(std::abs(p.x), p.z + 5) * 180 / pi); }
-constexpr double fade_begin = -4, fade_end = 12;  // of the hairline, mm
+constexpr double fade_begin = -6, fade_end = 14;  // of the hairline, mm
 
 /// Coordinates along and across the strands, which run from the whorl at the crown's back.
 struct Strand {
@@ -48,8 +48,8 @@ double hair_paint(const Vec3& p) {
     if (above > 2 * fade_end) return 1;
     const Strand s = strand(p);
     const double a = std::cos(s.across), b = std::sin(s.across);
-    const double wisp = 3.2 * noise({a * 60, b * 60, s.along * 9}) + 2.4 * noise({a * 130, b * 130, s.along * 12});
-    return smooth_step(fade_begin + 1, fade_end - 4, above + wisp);
+    const double wisp = 1.8 * noise({a * 60, b * 60, s.along * 9}) + 3.0 * noise({a * 170, b * 170, s.along * 26});
+    return smooth_step(fade_begin + 1, fade_end - 2, above + wisp);
 }
 
 void grow_hair(Head& head) {
@@ -58,7 +58,7 @@ void grow_hair(Head& head) {
         if (head.tags[v].part != Part::skin || p.x < 0 || head.image[v] < v) continue;
         const double cover = hair_cover(p);
         if (cover <= 0) continue;
-        const double length = mix(2.0, 11.0, smooth_step(-40, 90, p.y));
+        const double length = mix(1.0, 6.0, smooth_step(-40, 95, p.y));  // cropped
         const Strand s = strand({std::abs(p.x), p.y, p.z});
         const double tuft = noise({std::cos(s.across) * 7, std::sin(s.across) * 7, s.along * 2.5});
         const bool middle = p.x == 0;

@@ -28,15 +28,15 @@ double carve(double a, double hollow, double k) { return -join(-a, hollow, k); }
 
 double skull(const Vec3& p) {
     double d = ellipsoid(p, {0, 36, -8}, {74, 78, 88});
-    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);        // frontal bone
-    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);       // midface
-    d = join(d, ellipsoid(p, {42, -22, 51}, {20, 15, 22}), 22);      // zygomatic bone
-    d = join(d, cone(p, {36.5, -68, 8}, {9, -99, 71}, 12, 12), 22);  // body of the mandible
-    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);  // its ramus
-    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);       // floor of the mouth
-    d = join(d, ellipsoid(p, {0, -99.5, 74}, {15, 14, 17}), 16);     // chin
-    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);      // nape
-    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);     // behind the concha
+    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);            // frontal bone
+    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);           // midface
+    d = join(d, ellipsoid(p, {43, -22, 50}, {21, 15, 23}), 22);          // zygomatic bone
+    d = join(d, cone(p, {36.5, -68, 8}, {9, -97.5, 66.5}, 12, 12), 22);  // body of the mandible
+    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);      // its ramus
+    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);           // floor of the mouth
+    d = join(d, ellipsoid(p, {0, -97.5, 71}, {15.5, 13.5, 15.5}), 16);   // chin
+    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);          // nape
+    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);         // behind the concha
     const Vec3 neck{p.x, p.y, p.z * 0.96};
     d = join(d, cone(p, {41, -62, -22}, {13, -170, 4}, 11, 5), 16);  // sternocleidomastoid
     return join(d, cone(neck, {0, -80, -24}, {0, -205, -36}, 44, 50), 22);
@@ -45,9 +45,9 @@ double skull(const Vec3& p) {
 double soft_tissue(const Vec3& p, double d) {
     d = join(d, ellipsoid(p, {31, -48, 51}, {24.5, 28, 27}), 18);  // cheek
     d = join(d, ellipsoid(p, {0, -66, 60}, {32, 26, 32.5}), 14);   // over the dental arch
-    d = join(
-        d, join(cone(p, {0, 19, 82.5}, {23, 20.5, 78.5}, 7.5, 7.5), cone(p, {23, 20.5, 78.5}, {41, 17, 65}, 7.5, 7), 4),
-        18);                                                           // brow
+    d = join(d,
+             join(cone(p, {0, 19, 84}, {23, 20.5, 80.5}, 7.5, 7.5), cone(p, {23, 20.5, 80.5}, {42, 17, 67}, 7.5, 7), 4),
+             18);                                                      // brow
     d = carve(d, ellipsoid(p, {33.5, -2, 89.5}, {18, 12.5, 14}), 14);  // orbit
     d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);      // infraorbital rim
     return d;
