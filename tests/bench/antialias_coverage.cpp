@@ -122,7 +122,7 @@ int run(const CoverageDensity& density) {
                         100 * (rows.front().mean() - rows[m].mean()) / gap);
         }
         ordered &= gap > 0;
-        const auto row = [&](const std::string& name) {
+        const auto row = [&all, &rows = rows](const std::string& name) {
             const auto found =
                 std::ranges::find(all, name, [](const Method& method) { return std::string(method.name); });
             return rows[static_cast<std::size_t>(found - all.begin())].mean();

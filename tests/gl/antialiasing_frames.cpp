@@ -552,9 +552,10 @@ TEST_F(Reprojection, ADisocclusionLeavesNoGhost) {
     const Face face = make_face({.side = 14, .targets = 1});
     const Offscreen offscreen = make_offscreen(side, side);
     for (const float pixels_a_frame : {1.0F, 4.0F, 12.0F}) {
-        for (const char* falloff : {"30", "0"}) {
-            SCOPED_TRACE(std::to_string(pixels_a_frame) + " pixels a frame, falloff " + falloff);
-            Character character = character_in("smaa_t2x", face);
+        for (const auto& [mode, falloff] : {std::pair("smaa_t2x", "30"), {"smaa_4x", "30"}, {"smaa_t2x", "0"}}) {
+            SCOPED_TRACE(std::string(mode) + ", " + std::to_string(pixels_a_frame) + " pixels a frame, falloff " +
+                         falloff);
+            Character character = character_in(mode, face);
             set(character, "reprojection.falloff", falloff);
             // The dome is two units wide and fills most of the picture.
             const float step = pixels_a_frame * 2.0F / side;

@@ -120,6 +120,19 @@ TEST_F(Golden, JointsAndABlendedHalf) {
     expect_golden("joints_and_blending", picture(std::move(face), {1, 1}, -0.4F), bounds);
 }
 
+TEST_F(Golden, FourPlacesOfSmaaOverTwoFrames) {
+    Character character = make_character(moved_face());
+    ASSERT_TRUE(character.set("antialiasing.mode", "smaa_4x"));
+    test::set_weights(character, {1, 0.8F, -1, 0.6F});
+    const Offscreen offscreen = make_offscreen(128, 128);
+    View view = test::framed_view(character, offscreen);
+    OrbitCamera camera = character.framing(1);
+    camera.yaw_radians = 0.5F;
+    view.camera = camera.camera(1);
+    test::draw(character, offscreen, view);
+    expect_golden("smaa_4x", test::draw(character, offscreen, view), bounds);
+}
+
 TEST_F(Golden, TheBoundsTellAnotherFaceApart) {
     const Image golden = picture(moved_face(), {1, 0.8F, -1, 0.6F}, 0.5F);
     EXPECT_TRUE(within(difference_of(golden, golden), bounds));
