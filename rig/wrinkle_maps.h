@@ -30,9 +30,9 @@ struct WrinkleBake {
 };
 
 struct WrinkleMaps {
-    UvRaster raster;            ///< of the wrinkle map
-    ScalarMap displacement_mm;  ///< along the normal, at full strength of every zone
-    DerivativeMap derivatives;  ///< of the displacement, in the face's own tangent space
+    UvRaster raster;               ///< of the wrinkle map
+    ScalarMap displacement_mm;     ///< along the normal, at full strength of every zone
+    DerivativeMap derivatives;     ///< of the displacement, in the face's own tangent space
     std::vector<ScalarMap> masks;  ///< of each zone: mask_side x mask_side, 0 to 1; together no more than 1
 };
 

@@ -120,9 +120,9 @@ struct CharacterState {
     std::uint32_t picture = 0;  // the one being drawn, of sampling.pictures
     FrameGraph graph;
     FrameResources resources;
-    std::uint32_t images_left = 0;  // steps after the scene that have yet to declare themselves
-    std::uint32_t kept_at = 0;      // the image with so many steps after it is kept for the next frame; 0: none
-    std::vector<LightSource> lights;           // that are not dark
+    std::uint32_t images_left = 0;    // steps after the scene that have yet to declare themselves
+    std::uint32_t kept_at = 0;        // the image with so many steps after it is kept for the next frame; 0: none
+    std::vector<LightSource> lights;  // that are not dark
     std::vector<shared::Light> shader_lights;  // the same, with their shadow maps where they have one
     bool shadows_shown = false, translucency_shown = false;
     const Lighting* lighting = nullptr;  // the view's, or portrait

@@ -68,15 +68,16 @@ std::array<const TextureUse*, 5> textures_of(const Material& m) {
 
 constexpr std::array<std::string_view, 15> defines_of_bits = {
     "BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP", "OCCLUSION_MAP", "EMISSIVE_MAP", "SKIN",
-    "SCATTER",        "SKIN_REFLECTION",        "SHADOWS",    "TRANSLUCENCY",  "ENVIRONMENT",  "AMBIENT_OCCLUSION", "WRINKLES", "WRINKLE_DIFFERENCES", "BLOOD"};
+    "SCATTER",        "SKIN_REFLECTION",        "SHADOWS",    "TRANSLUCENCY",  "ENVIRONMENT",  "AMBIENT_OCCLUSION",
+    "WRINKLES",       "WRINKLE_DIFFERENCES",    "BLOOD"};
 
 std::uint32_t permutation_of(const Material& material, bool skin, std::uint32_t frame_bits) {
     const auto uses = textures_of(material);
     std::uint32_t bits = frame_bits;
     for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? 1U << t : 0U;
     // What only skin has is left out elsewhere, so that fewer programs are made.
-    constexpr std::uint32_t of_skin = shade_skin_reflection | shade_translucency | shade_wrinkles |
-                                      shade_wrinkle_differences | shade_blood;
+    constexpr std::uint32_t of_skin =
+        shade_skin_reflection | shade_translucency | shade_wrinkles | shade_wrinkle_differences | shade_blood;
     return skin ? bits | shade_skin : bits & ~of_skin;
 }
 
@@ -204,14 +205,20 @@ Status FaceModel::prepare(const Face& face, const std::vector<bool>& skin, std::
     return make_permutation(programs, permutation_of(default_material(), skin.back(), frame_bits));
 }
 
-void FaceModel::bind_material(const Face& face, std::int32_t material, bool skin, std::uint32_t frame_bits) const {
+namespace {
+
+const Material& material_of(const Face& face, std::int32_t material) {
+    static const Material plain = default_material();
+    return material >= 0 ? face.materials[static_cast<std::size_t>(material)] : plain;
+}
+
+}  // namespace
+
+void FaceModel::bind_maps(const Face& face, std::int32_t material) const {
     const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : face.materials.size();
     glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_MATERIAL_BINDING, material_blocks.name(),
                       static_cast<GLintptr>(index * material_stride), sizeof(shared::MaterialBlock));
-    static const Material plain = default_material();
-    const Material& described = material >= 0 ? face.materials[index] : plain;
-    glUseProgram(programs.at(permutation_of(described, skin, frame_bits)).name());
-    const auto uses = textures_of(described);
+    const auto uses = textures_of(material_of(face, material));
     for (GLuint t = 0; t < uses.size(); ++t) {
         const TextureUse& use = *uses[t];
         if (use.image < 0) continue;
@@ -220,6 +227,11 @@ void FaceModel::bind_material(const Face& face, std::int32_t material, bool skin
         glBindTextureUnit(BLUSH_BASE_COLOR_UNIT + t, texture.name());
         glBindSampler(BLUSH_BASE_COLOR_UNIT + t, samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
     }
+}
+
+void FaceModel::bind_material(const Face& face, std::int32_t material, bool skin, std::uint32_t frame_bits) const {
+    glUseProgram(programs.at(permutation_of(material_of(face, material), skin, frame_bits)).name());
+    bind_maps(face, material);
 }
 
 void FaceModel::bind_draw(std::size_t index) const {

@@ -33,6 +33,8 @@ struct FaceModel {
 
     /// Binds the vertex array with `surface` as its positions, normals and tangents.
     void bind_surface(const SurfaceBuffers& surface) const;
+    /// Binds the block and the textures of a material (-1: the default one), for a program of the caller's.
+    void bind_maps(const Face& face, std::int32_t material) const;
     /// Uses the program, and binds the block and the textures, of a material (-1: the default one). frame_bits: what
     /// the frame adds to the permutation; prepare() must have been called with them.
     void bind_material(const Face& face, std::int32_t material, bool skin, std::uint32_t frame_bits) const;

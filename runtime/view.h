@@ -26,7 +26,7 @@ struct View {
     std::uint32_t width = 0, height = 0;  ///< pixels, of the framebuffer
     std::uint32_t framebuffer = 0;        ///< GL name; 0: the default framebuffer
     Output output = Output::display_srgb;
-    float exposure = 1;  ///< factor on radiance before the filmic curve
+    float exposure = 1;                  ///< factor on radiance before the filmic curve
     const Lighting* lighting = nullptr;  ///< alive while drawing; null: three lights of a portrait, fixed to the camera
     /// Of multisampling, where the setting antialiasing.mode leaves it to the view; clamped to what the device has.
     std::uint32_t samples = 4;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "runtime/antialias/last_frame.h"
+#include "runtime/draw_face.h"
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
@@ -57,22 +58,21 @@ void bind_surfaces(CharacterState& state, Velocities& own, const LastFrame& last
 void set_matrix(GLint location, const glm::mat4& matrix) { glUniformMatrix4fv(location, 1, GL_FALSE, &matrix[0].x); }
 
 /// What blends is passed over: its velocity is that of what is behind it.
-void draw_primitive(CharacterState& state, const Velocities& own, const LastFrame& last, std::size_t node,
-                    const Primitive& primitive) {
+void draw_primitive(CharacterState& state, const Velocities& own, const LastFrame& last, const Primitive& primitive,
+                    std::size_t node, bool mirrored) {
+    if (is_blended(state.face, primitive)) return;
     const Material* material =
         primitive.material >= 0 ? &state.face.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
-    if (primitive.index_count == 0 || (material != nullptr && material->alpha_mode == AlphaMode::blend)) return;
     const bool alpha_test =
         material != nullptr && material->alpha_mode == AlphaMode::mask && material->base_color_srgb.image >= 0;
-    if (alpha_test) state.model.bind_material(state.face, primitive.material);
+    if (alpha_test) state.model.bind_maps(state.face, primitive.material);
     glUseProgram(own.programs[alpha_test ? 1 : 0].name());
 
-    const bool skinned = state.face.nodes[node].skin >= 0 && state.facts.has_joints;
-    const glm::mat4 world_from_mesh = skinned ? glm::mat4(1) : state.world_from_node[node];
+    const bool skinned = node == state.face.nodes.size();  // the surface stands in the world already
     set_matrix(0, state.camera.clip_from_view * state.camera.view_from_world);
     set_matrix(1, state.view->camera.clip_from_view * state.view->camera.view_from_world);
     set_matrix(2, last.stance.camera.clip_from_view * last.stance.camera.view_from_world);
-    set_matrix(3, world_from_mesh);
+    set_matrix(3, skinned ? glm::mat4(1) : state.world_from_node[node]);
     set_matrix(4, skinned ? glm::mat4(1) : last.stance.world_from_node[node]);
 
     if (material != nullptr && material->double_sided) {
@@ -80,11 +80,8 @@ void draw_primitive(CharacterState& state, const Velocities& own, const LastFram
     } else {
         glEnable(GL_CULL_FACE);
     }
-    glFrontFace(glm::determinant(glm::mat3(world_from_mesh)) < 0 ? GL_CW : GL_CCW);
-    const std::size_t offset_bytes = std::size_t{primitive.first_index} * sizeof(std::uint32_t);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(primitive.index_count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(offset_bytes));  // NOLINT(performance-no-int-to-ptr): GL's own way
-    state.report.triangles_drawn += primitive.index_count / 3;
+    glFrontFace(mirrored ? GL_CW : GL_CCW);
+    draw_elements(state, primitive);
 }
 
 void draw(CharacterState& state, const FrameGraph& graph) {
@@ -102,13 +99,9 @@ void draw(CharacterState& state, const FrameGraph& graph) {
     bind_surfaces(state, own, last);
     glBindVertexArray(own.vertex_array.name());
     glEnable(GL_DEPTH_TEST);
-    for (std::size_t n = 0; n < state.face.nodes.size(); ++n) {
-        if (state.face.nodes[n].mesh < 0) continue;
-        const Mesh& mesh = state.face.meshes[static_cast<std::size_t>(state.face.nodes[n].mesh)];
-        for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
-            draw_primitive(state, own, last, n, state.face.primitives[mesh.first_primitive + p]);
-        }
-    }
+    each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t node, bool mirrored) {
+        draw_primitive(state, own, last, primitive, node, mirrored);
+    });
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
 }
