@@ -12,6 +12,7 @@ find_package(Ceres REQUIRED)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
 pkg_check_modules(libarchive REQUIRED IMPORTED_TARGET libarchive)
+pkg_check_modules(lua REQUIRED IMPORTED_TARGET lua5.4-c++)
 find_package(nlohmann_json REQUIRED)
 # Debian's CMake package of OpenImageIO also demands its programs and OpenCV's headers, which nothing here uses.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET GLOBAL OpenImageIO)

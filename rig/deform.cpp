@@ -3,26 +3,37 @@
 namespace blush {
 
 void Deformer::deform(std::span<const float> weights, NormalMethod method, DeformedSurface& out) {
-    out.positions = face_.positions;
-    out.normals = face_.normals;
-    out.tangents = face_.tangents;
-    find_active(weights, active_);
-    if (active_.empty()) return;
-    add_targets(face_, active_, out.positions, out.normals, out.tangents);
+    const std::size_t count = path_.targets().vertex_count;
+    out.positions.resize(count);
+    out.normals.resize(count);
+    out.tangents.resize(count);
+    active_.build(path_.targets(), weights);
+    const VertexPath::Job job{&active_, method, out.positions, out.normals, out.tangents};
+    path_.add_targets({&job, 1}, path_.all_vertices());
+    path_.turn_normals({&job, 1}, path_.all_vertices());
+}
 
-    for (const Primitive& primitive : face_.primitives) {
+DeformedSurface deform_plain(const Face& face, const NormalTopology& topology, std::span<const float> weights,
+                             NormalMethod method) {
+    DeformedSurface out{face.positions, face.normals, face.tangents};
+    std::vector<ActiveTarget> active;
+    find_active(weights, active);
+    if (active.empty()) return out;
+    add_targets(face, active, out.positions, out.normals, out.tangents);
+
+    for (const Primitive& primitive : face.primitives) {
         if (primitive.normal_source == NormalSource::rest) continue;
         const bool recomputed = normals_recomputed(primitive, method);
         for (std::uint32_t v = primitive.first_vertex; v < primitive.first_vertex + primitive.vertex_count; ++v) {
-            const glm::vec3 rest_normal = face_.normals[v];
-            const glm::vec4 rest_tangent = face_.tangents[v];
+            const glm::vec3 rest_normal = face.normals[v];
+            const glm::vec4 rest_tangent = face.tangents[v];
             glm::vec3& normal = out.normals[v];
             glm::vec4& tangent = out.tangents[v];
             if (recomputed) {
                 // TANGENT deltas belong to NORMAL deltas that are not used here.
                 tangent = rest_tangent;
-                normal = turned_normal(rest_normal, topology_.rest_sums[v],
-                                       angle_weighted_normal(topology_, out.positions, v));
+                normal = turned_normal(rest_normal, topology.rest_sums[v],
+                                       angle_weighted_normal(topology, out.positions, v));
             } else if (normal != rest_normal) {
                 normal = normalized_or(normal, rest_normal);
             }
@@ -32,6 +43,7 @@ void Deformer::deform(std::span<const float> weights, NormalMethod method, Defor
             }
         }
     }
+    return out;
 }
 
 void skin(std::span<const glm::u16vec4> joints, std::span<const glm::vec4> joint_weights,

@@ -1,6 +1,6 @@
 #pragma once
-/// Deformation on the CPU: the whole of what stream-out does, as plain loops. Reference of the GPU path, and the path
-/// of tools that have no GL.
+/// Deformation on the CPU: the whole of what stream-out does. Reference of the GPU path, and the path of tools that
+/// have no GL.
 
 #include <span>
 #include <vector>
@@ -8,6 +8,7 @@
 #include "rig/blend_shapes.h"
 #include "rig/face.h"
 #include "rig/surface_normals.h"
+#include "rig/vertex_path.h"
 
 namespace blush {
 
@@ -18,22 +19,27 @@ struct DeformedSurface {
     std::vector<glm::vec4> tangents;
 };
 
+/// One face on one thread, by the vertex path (rig/vertex_path.h).
 class Deformer {
 public:
-    /// Keeps a reference to `face`, which must outlive it. Builds the topology that the normals need.
-    explicit Deformer(const Face& face) : face_(face), topology_(face) {}
+    /// Keeps a reference to `face`, which must outlive it. Packs its targets and builds the topology of its normals.
+    explicit Deformer(const Face& face, const PackOptions& options = {}) : path_(face, options) {}
 
     /// weights: one for each target, any float (not finite counts as 0). Writes `out`, which allocates on first use
     /// only. All weights zero give the rest attributes bit for bit.
     void deform(std::span<const float> weights, NormalMethod method, DeformedSurface& out);
 
-    const NormalTopology& topology() const { return topology_; }
+    const VertexPath& path() const { return path_; }
 
 private:
-    const Face& face_;
-    NormalTopology topology_;
-    std::vector<ActiveTarget> active_;
+    VertexPath path_;
+    ActivePieces active_;
 };
+
+/// The same surface by plain loops over the targets as they are in the face: the definition, which the vertex path is
+/// held to bit by bit. Allocates.
+DeformedSurface deform_plain(const Face& face, const NormalTopology& topology, std::span<const float> weights,
+                             NormalMethod method);
 
 /// Skins positions and directions in place, after the morph (glTF 2.0, 3.7.3.3): `mesh_to_world` of each joint is
 /// world_from_joint * joint_from_mesh. Vertices without joint weights stay as they are.

@@ -40,8 +40,10 @@ char to_lower(char c) { return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : 
 std::string_view side_of_last_letter(std::string_view name) {
     if (name.size() < 2) return {};
     const char last = name.back(), before = name[name.size() - 2];
-    // After a separator either case marks a side; after a lower-case letter only a capital does ("mouthFunnel").
-    if (!is_separator(before) && !(is_lower(before) && is_upper(last))) return {};
+    // After a separator either case marks a side; after a lower-case letter or a digit only a capital does
+    // ("mouthFunnel", "AU12L").
+    const bool ends_a_word = is_lower(before) || (before >= '0' && before <= '9');
+    if (!is_separator(before) && !(ends_a_word && is_upper(last))) return {};
     if (to_lower(last) == 'l') return "left";
     if (to_lower(last) == 'r') return "right";
     return {};

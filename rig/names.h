@@ -16,8 +16,8 @@ namespace blush {
 extern const std::array<std::string_view, 52> arkit_names;
 
 /// One spelling for all the usual ones: "JawOpen", "jaw_open", "mouthSmile_L" and "mouthSmileLeft" give the same key.
-/// Case, '_', '-', ' ', '.' do not count, and a final side mark (L, R after a separator or a lower-case letter; left,
-/// right) becomes one form. Names that are not ARKit's are folded the same way.
+/// Case, '_', '-', ' ', '.' do not count, and a final side mark (L, R after a separator, a lower-case letter or a
+/// digit; left, right) becomes one form. Names that are not ARKit's are folded the same way.
 std::string canonical_name(std::string_view name);
 
 /// A list of names prepared for many look-ups by find_name()'s rule: as many steps to build as there are names, one to

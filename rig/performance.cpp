@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "rig/curve.h"
@@ -30,6 +32,28 @@ std::string animation_label(const Animation& animation, std::size_t index) {
     return animation.name.empty() ? "animation " + std::to_string(index) : "animation '" + animation.name + "'";
 }
 
+float value_at(const Track& track, float time_seconds) {
+    float value = 0;
+    sample(track, time_seconds, {&value, 1});
+    return value;
+}
+
+void add_layer(const PerformanceLayer& layer, std::span<const std::uint32_t> control_of_channel, float time_seconds,
+               std::span<float> controls) {
+    if (!(time_seconds >= layer.start_seconds)) return;
+    const bool adds = layer.mode == LayerMode::add;
+    const float given = value_at(layer.weight, time_seconds);
+    const float weight = adds ? given : std::clamp(given, 0.0F, 1.0F);
+    if (weight == 0) return;
+    const float moment = layer.loop.moment(time_seconds - layer.start_seconds);
+    for (std::size_t i = 0; i < control_of_channel.size(); ++i) {
+        if (control_of_channel[i] == no_control) continue;
+        float& control = controls[control_of_channel[i]];
+        const float value = value_at(layer.channels[i].track, moment);
+        control = adds ? control + weight * value : std::lerp(control, value, weight);
+    }
+}
+
 /// Collects tracks by what they move. One that comes again takes the place of the earlier one.
 class Merge {
 public:
@@ -53,6 +77,7 @@ public:
     Performance take() && {
         for (const PerformanceChannel& channel : result_.channels) stretch(channel.track);
         for (const NodeChannel& channel : result_.nodes) stretch(channel.track);
+        result_.loop.length_seconds = result_.duration_seconds;
         return std::move(result_);
     }
 
@@ -99,6 +124,8 @@ private:
 
 }  // namespace
 
+float reading_seconds(std::string_view text) { return std::max(1.0F, static_cast<float>(text.size()) / 15); }
+
 Performance performance_from_animations(const Face& face, std::optional<std::size_t> index) {
     Performance result;
     if (index && *index >= face.animations.size()) {
@@ -115,27 +142,34 @@ Performance performance_from_animations(const Face& face, std::optional<std::siz
     return result;
 }
 
+float Loop::moment(float seconds) const {
+    if (rounds == 1) return seconds;
+    if (!(seconds > 0) || !(length_seconds > 0)) return 0;
+    if (rounds != 0 && seconds >= end_seconds()) return length_seconds;
+    return std::isfinite(seconds) ? std::fmod(seconds, length_seconds) : length_seconds;
+}
+
 BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : performance_(std::move(performance)) {
-    const auto names = rig.control_names();
-    std::vector<std::uint32_t> channel_of_control(names.size(), no_control);
-    for (std::size_t i = 0; i < performance_.channels.size(); ++i) {
-        const std::string& name = performance_.channels[i].name;
-        const std::optional<ControlId> control = rig.find(name);
-        control_of_channel_.push_back(control ? static_cast<std::uint32_t>(*control) : no_control);
-        if (!control) {
-            unmatched_channels_.push_back(name);
-            continue;
-        }
-        // sample() writes the channels in order, so that of two the later one stays.
-        std::uint32_t& channel = channel_of_control[control_of_channel_[i]];
-        if (channel != no_control) {
-            performance_.notes.push_back("channels '" + performance_.channels[channel].name + "' and '" + name +
-                                         "' both drive '" + names[control_of_channel_[i]] + "'; the last one plays");
-        }
-        channel = static_cast<std::uint32_t>(i);
+    control_of_channel_ = bind(performance_.channels, rig, "");
+    for (std::size_t i = 0; i < performance_.layers.size(); ++i) {
+        const PerformanceLayer& layer = performance_.layers[i];
+        const std::string name = layer.name.empty() ? "layer " + std::to_string(i) : "layer '" + layer.name + "'";
+        controls_of_layer_.push_back(bind(layer.channels, rig, name + ": "));
     }
-    for (std::size_t i = 0; i < rig.target_count(); ++i) {
-        if (channel_of_control[i] == no_control) undriven_targets_.push_back(names[i]);
+    std::unordered_set<std::string> seen;
+    std::erase_if(unmatched_channels_, [&](const std::string& name) { return !seen.insert(name).second; });
+    std::ranges::sort(driven_controls_);
+    const auto repeated = std::ranges::unique(driven_controls_);
+    driven_controls_.erase(repeated.begin(), repeated.end());
+
+    if (driven_controls_.empty() || driven_controls_.front() < rig.target_count()) {
+        std::vector<std::uint8_t> driven(rig.target_count(), 0);
+        for (const std::uint32_t control : driven_controls_) {
+            for (const std::uint32_t target : rig.reach(static_cast<ControlId>(control))) driven[target] = 1;
+        }
+        for (std::uint32_t i = 0; i < rig.target_count(); ++i) {
+            if (driven[i] == 0) undriven_targets_.push_back(rig.control_names()[i]);
+        }
     }
     // Node indices mean the face that they came from; on a smaller one those beyond its end have nothing to move.
     const std::size_t node_count = rig.rest_pose().nodes.size();
@@ -145,20 +179,57 @@ BoundPerformance::BoundPerformance(Performance performance, const Rig& rig) : pe
     }
 }
 
+std::vector<std::uint32_t> BoundPerformance::bind(std::span<const PerformanceChannel> channels, const Rig& rig,
+                                                  const std::string& place) {
+    std::vector<std::uint32_t> controls;
+    std::unordered_map<std::uint32_t, std::size_t> channel_of_control;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const std::string& name = channels[i].name;
+        const std::optional<ControlId> control = rig.find(name);
+        controls.push_back(control ? static_cast<std::uint32_t>(*control) : no_control);
+        if (!control) {
+            unmatched_channels_.push_back(name);
+            continue;
+        }
+        driven_controls_.push_back(controls[i]);
+        const auto [earlier, added] = channel_of_control.try_emplace(controls[i], i);
+        if (added) continue;
+        performance_.notes.push_back(place + "channels '" + channels[earlier->second].name + "' and '" + name +
+                                     "' both drive '" + rig.control_names()[controls[i]] + "'; the last one plays");
+        controls[earlier->second] = no_control;
+        earlier->second = i;
+    }
+    return controls;
+}
+
+std::span<const Marker> BoundPerformance::markers_between(double from_seconds, double to_seconds) const {
+    const auto& markers = performance_.markers;
+    const auto after = [&](double seconds) {
+        return std::ranges::upper_bound(markers, seconds, {},
+                                        [](const Marker& m) { return static_cast<double>(m.time_seconds); });
+    };
+    const auto first = after(from_seconds), last = after(to_seconds);
+    return first < last ? std::span<const Marker>(first, last) : std::span<const Marker>();
+}
+
 void BoundPerformance::sample(float time_seconds, std::span<float> controls, Pose& pose) const {
+    const float moment = performance_.loop.moment(time_seconds);
     for (std::size_t i = 0; i < control_of_channel_.size(); ++i) {
         if (control_of_channel_[i] == no_control) continue;
         assert(control_of_channel_[i] < controls.size() && "BoundPerformance::sample() takes one value a control");
-        blush::sample(performance_.channels[i].track, time_seconds, controls.subspan(control_of_channel_[i], 1));
+        blush::sample(performance_.channels[i].track, moment, controls.subspan(control_of_channel_[i], 1));
+    }
+    for (std::size_t i = 0; i < performance_.layers.size(); ++i) {
+        add_layer(performance_.layers[i], controls_of_layer_[i], time_seconds, controls);
     }
     for (const NodeChannel& channel : performance_.nodes) {
         assert(channel.node < pose.nodes.size() && "BoundPerformance::sample() takes a pose of its own rig");
         Transform& node = pose.nodes[channel.node];
         glm::vec3& vector = channel.path == NodePath::scale ? node.scale : node.translation;
         if (channel.path == NodePath::rotation) {
-            node.rotation = sample_rotation(channel.track, time_seconds);
+            node.rotation = sample_rotation(channel.track, moment);
         } else {
-            blush::sample(channel.track, time_seconds, std::span<float>(&vector.x, 3));
+            blush::sample(channel.track, moment, std::span<float>(&vector.x, 3));
         }
     }
 }

@@ -6,13 +6,11 @@
 #include <numeric>
 #include <tuple>
 
+#include "rig/direction_limits.h"
+
 namespace blush {
 namespace {
 
-// Below this squared length a direction is rounding noise in single precision, and its reciprocal root may overflow.
-constexpr float smallest_length2 = 1e-30F;
-// Above this one the length itself is about to overflow (the largest float is 3.4e38).
-constexpr float largest_length2 = 1e37F;
 // 1 + cos(179.9 degrees): closer to half a turn than this the axis of the shortest arc is noise.
 constexpr float half_turn = 1.5e-6F;
 

@@ -1,97 +1,33 @@
 #include "runtime/load/performance_json.h"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "runtime/load/json_text.h"
 #include "runtime/load/performance_text.h"
 #include "runtime/load/smooth_keys.h"
 
 namespace blush {
 namespace {
 
-using Json = nlohmann::ordered_json;  // channels stay in the order of the file
+constexpr std::string_view ease_names = "smooth, linear, step, ease-in, ease-out, ease-in-out";
 
-/// The format nests four deep; anything much deeper is not a performance.
-constexpr int most_depth = 16;
-/// Ordered objects look a key up by walking through all of them, so that their number must have an end.
-constexpr std::size_t most_keys = 16'384;
-/// A parsed key pair takes some twenty times the bytes of its text.
-constexpr std::size_t most_bytes = 64U << 20;
-
-/// Thrown by the parser's callback and caught in parse(): nlohmann offers no other way to stop.
-struct Refusal {
-    std::string reason;
-};
-
-/// Refuses depth, size and repeated keys while the text is read.
-class Guard {
-public:
-    bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
-        using Event = Json::parse_event_t;
-        if (depth > most_depth) throw Refusal{"nested more than " + std::to_string(most_depth) + " deep"};
-        if (event == Event::object_start) keys_.emplace_back();
-        if (event == Event::object_end) keys_.pop_back();
-        if (event == Event::key) {
-            const auto& key = parsed.get_ref<const std::string&>();
-            if (!keys_.back().insert(key).second)
-                throw Refusal{"the key " + in_quotes(key) + " is there twice in one object"};
-            if (keys_.back().size() > most_keys) {
-                throw Refusal{"an object has more than " + std::to_string(most_keys) + " keys"};
-            }
-        }
-        return true;
-    }
-
-private:
-    std::vector<std::set<std::string>> keys_;
-};
-
-std::string line_and_column(std::string_view text, std::size_t offset) {
-    const std::string_view before = text.substr(0, offset);
-    const std::size_t line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
-    const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-    return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_start + 1);
+/// A key or a name as part of a path in a message.
+std::string shown(const std::string& key) {
+    const std::string with_quotes = in_quotes(key);
+    return with_quotes.substr(1, with_quotes.size() - 2);
 }
 
-/// The library's own words for what it found, without its error code and place.
-std::string syntax_reason(std::string_view what) {
-    for (const std::string_view mark : {"] ", "column ", ": ", " - "}) {
-        const std::size_t found = what.find(mark);
-        if (found != std::string_view::npos) what.remove_prefix(found + mark.size());
-    }
-    std::string reason;
-    for (const char c : what) reason += (c >= ' ' && c <= '~') ? c : '?';
-    return reason;
+std::string member(const std::string& path, std::string_view key) {
+    return path + (path.empty() ? "" : ".") + std::string(key);
 }
 
-Result<Json> parse(std::string_view text, const std::string& file) {
-    try {
-        return Json::parse(text.begin(), text.end(), Guard());
-    } catch (const Refusal& refusal) {
-        return Error{file + ": " + refusal.reason};
-    } catch (const Json::parse_error& error) {
-        const std::size_t offset = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-        return Error{file + ": " + line_and_column(text, offset) + ": not valid JSON: " + syntax_reason(error.what())};
-    } catch (const Json::exception& error) {
-        // What is left is a number beyond a double's range, quoted in the library's words but without its place.
-        std::string_view what = error.what();
-        const std::size_t open = what.find('\''), close = what.rfind('\'');
-        const std::string_view number =
-            open < close ? what.substr(open + 1, close - open - 1) : std::string_view("a number");
-        const std::size_t offset = text.find(number);
-        return Error{file + ": " + line_and_column(text, offset == std::string_view::npos ? 0 : offset) + ": " +
-                     in_quotes(number) + " is out of range"};
-    }
-}
+std::string entry(const std::string& path, std::size_t index) { return path + "[" + std::to_string(index) + "]"; }
 
 /// One file on its way to a Performance; collects notes.
 class Reader {
@@ -105,36 +41,21 @@ public:
         if (*version != 1) {
             return error("blush_performance: version " + version->dump() + " is not known, only 1 is");
         }
-        if (const auto name = root.find("name"); name != root.end()) {
-            if (!name->is_string()) return wrong_type("name", "a string", *name);
-            performance_.name = name->get<std::string>();
-        }
-        const auto channels = root.find("channels");
-        if (channels == root.end()) return error("the key 'channels' is missing at the top level");
-        if (!channels->is_object()) return wrong_type("channels", "an object", *channels);
-        for (const auto& [name, channel] : channels->items()) {
-            Result<Track> track = read_channel(channel, "channels." + shown(name));
-            if (!track) return track.error();
-            performance_.duration_seconds = std::max(performance_.duration_seconds, track->times_seconds.back());
-            performance_.channels.push_back({.name = name, .track = *std::move(track)});
-        }
-        note_unknown_keys(root, "", {"blush_performance", "name", "channels"});
+        if (Status read = read_text(root, "", "name", performance_.name); !read) return read.error();
+        if (Status read = read_channels(root, "", performance_.channels); !read) return read.error();
+        if (Status read = read_loop(root, "", performance_.channels, performance_.loop); !read) return read.error();
+        if (Status read = read_layers(root); !read) return read.error();
+        if (Status read = read_markers(root); !read) return read.error();
+        note_unknown_keys(root, "", {"blush_performance", "name", "channels", "loop", "length", "layers", "markers"});
+        find_duration();
         return std::move(performance_);
     }
 
 private:
-    enum class Shape : std::uint8_t { smooth, linear, step, cubic };
-
     Error error(const std::string& reason) const { return Error{file_ + ": " + reason}; }
 
     Error wrong_type(const std::string& path, const std::string& wanted, const Json& found) const {
         return error(path + " must be " + wanted + ", not " + found.type_name());
-    }
-
-    /// A key as part of a path in a message.
-    static std::string shown(const std::string& key) {
-        const std::string with_quotes = in_quotes(key);
-        return with_quotes.substr(1, with_quotes.size() - 2);
     }
 
     void note_unknown_keys(const Json& object, const std::string& path, std::initializer_list<std::string_view> known) {
@@ -145,17 +66,13 @@ private:
         }
     }
 
-    Result<Shape> read_shape(const Json& channel, const std::string& path) const {
-        const auto found = channel.find("interpolation");
-        if (found == channel.end()) return Shape::smooth;
-        if (!found->is_string()) return wrong_type(path + ".interpolation", "a string", *found);
-        constexpr std::array<std::pair<std::string_view, Shape>, 4> shapes = {
-            {{"smooth", Shape::smooth}, {"linear", Shape::linear}, {"step", Shape::step}, {"cubic", Shape::cubic}}};
-        const auto& name = found->get_ref<const std::string&>();
-        for (const auto& [known, shape] : shapes) {
-            if (name == known) return shape;
-        }
-        return error(path + ".interpolation: " + in_quotes(name) + " is none of smooth, linear, step, cubic");
+    /// Leaves `text` as it is where the key is missing.
+    Status read_text(const Json& object, const std::string& path, std::string_view key, std::string& text) const {
+        const auto found = object.find(key);
+        if (found == object.end()) return Done{};
+        if (!found->is_string()) return wrong_type(member(path, key), "a string", *found);
+        text = found->get<std::string>();
+        return Done{};
     }
 
     Result<float> read_number(const Json& value, const std::string& path) const {
@@ -167,10 +84,148 @@ private:
         return static_cast<float>(number);
     }
 
-    Result<Track> read_channel(const Json& channel, const std::string& path) {
+    /// A time or a length of time; leaves `seconds` as it is where the key is missing.
+    Status read_seconds(const Json& object, const std::string& path, std::string_view key, float& seconds) const {
+        const auto found = object.find(key);
+        if (found == object.end()) return Done{};
+        const Result<float> number = read_number(*found, member(path, key));
+        if (!number) return number.error();
+        if (*number < 0) return error(member(path, key) + ": " + found->dump() + " is less than 0 seconds");
+        seconds = *number;
+        return Done{};
+    }
+
+    Status read_channels(const Json& object, const std::string& path, std::vector<PerformanceChannel>& out) {
+        const std::string place = member(path, "channels");
+        const auto channels = object.find("channels");
+        if (channels == object.end()) {
+            return error(path.empty() ? "the key 'channels' is missing at the top level"
+                                      : path + ": the key 'channels' is missing");
+        }
+        if (!channels->is_object()) return wrong_type(place, "an object", *channels);
+        for (const auto& [name, channel] : channels->items()) {
+            Result<Track> track = read_track(channel, member(place, shown(name)));
+            if (!track) return track.error();
+            out.push_back({.name = name, .track = *std::move(track)});
+        }
+        return Done{};
+    }
+
+    /// "loop" (true, or how many rounds) and "length" (of a round; the time of the last key where it is missing).
+    Status read_loop(const Json& object, const std::string& path, const std::vector<PerformanceChannel>& channels,
+                     Loop& loop) {
+        for (const PerformanceChannel& channel : channels) {
+            loop.length_seconds = std::max(loop.length_seconds, channel.track.times_seconds.back());
+        }
+        const auto found = object.find("loop");
+        const bool loops = found != object.end() && *found != false;
+        if (loops && *found == true) {
+            loop.rounds = 0;
+        } else if (loops) {
+            constexpr std::int64_t most_rounds = 1'000'000;
+            if (!found->is_number_integer() || *found < 1 || *found > most_rounds) {
+                return error(member(path, "loop") + " must be true, false or a whole number from 1 to " +
+                             std::to_string(most_rounds) + ", not " + shown(found->dump()));
+            }
+            loop.rounds = found->get<std::uint32_t>();
+        }
+        if (object.contains("length") && loop.rounds == 1) {
+            performance_.notes.push_back(member(path, "length") + " counts for nothing without a loop");
+            return Done{};
+        }
+        if (Status read = read_seconds(object, path, "length", loop.length_seconds); !read) return read.error();
+        if (loop.rounds != 1 && !(loop.length_seconds > 0)) {
+            return error(member(path, "loop") + ": a loop needs a length above 0 seconds: a second key, or 'length'");
+        }
+        return Done{};
+    }
+
+    Status read_layers(const Json& root) {
+        const auto layers = root.find("layers");
+        if (layers == root.end()) return Done{};
+        if (!layers->is_array()) return wrong_type("layers", "an array", *layers);
+        for (std::size_t i = 0; i < layers->size(); ++i) {
+            if (Status read = read_layer((*layers)[i], entry("layers", i)); !read) return read;
+        }
+        return Done{};
+    }
+
+    Status read_layer(const Json& object, const std::string& path) {
+        if (!object.is_object()) return wrong_type(path, "an object", object);
+        PerformanceLayer layer;
+        std::string mode = "add";
+        if (Status read = read_text(object, path, "name", layer.name); !read) return read;
+        if (Status read = read_text(object, path, "mode", mode); !read) return read;
+        if (mode != "add" && mode != "override") {
+            return error(path + ".mode: " + in_quotes(mode) + " is none of add, override");
+        }
+        layer.mode = mode == "add" ? LayerMode::add : LayerMode::override;
+        if (Status read = read_seconds(object, path, "start", layer.start_seconds); !read) return read;
+        if (Status read = read_channels(object, path, layer.channels); !read) return read;
+        if (Status read = read_loop(object, path, layer.channels, layer.loop); !read) return read;
+        Result<Track> weight = read_weight(object, path + ".weight");
+        if (!weight) return weight.error();
+        layer.weight = *std::move(weight);
+        note_unknown_keys(object, path, {"name", "mode", "start", "loop", "length", "weight", "channels"});
+        performance_.layers.push_back(std::move(layer));
+        return Done{};
+    }
+
+    /// A number, or a track of its own; 1 where it is missing.
+    Result<Track> read_weight(const Json& object, const std::string& path) {
+        const auto found = object.find("weight");
+        if (found != object.end() && found->is_object()) return read_track(*found, path);
+        float weight = 1;
+        if (found != object.end()) {
+            const Result<float> number = read_number(*found, path);
+            if (!number) return number.error();
+            weight = *number;
+        }
+        return Track{.interpolation = Interpolation::step, .width = 1, .times_seconds = {0}, .values = {weight}};
+    }
+
+    Status read_markers(const Json& root) {
+        const auto markers = root.find("markers");
+        if (markers == root.end()) return Done{};
+        if (!markers->is_array()) return wrong_type("markers", "an array", *markers);
+        for (std::size_t i = 0; i < markers->size(); ++i) {
+            const Json& object = (*markers)[i];
+            const std::string path = entry("markers", i);
+            if (!object.is_object()) return wrong_type(path, "an object", object);
+            if (!object.contains("time")) return error(path + ": the key 'time' is missing");
+            Marker marker;
+            if (Status read = read_seconds(object, path, "time", marker.time_seconds); !read) return read;
+            if (Status read = read_text(object, path, "event", marker.event); !read) return read;
+            if (Status read = read_text(object, path, "text", marker.text); !read) return read;
+            marker.text_seconds = marker.text.empty() ? 0 : reading_seconds(marker.text);
+            if (Status read = read_seconds(object, path, "seconds", marker.text_seconds); !read) return read;
+            if (marker.event.empty() && marker.text.empty()) {
+                return error(path + ": needs an 'event', a 'text', or both");
+            }
+            note_unknown_keys(object, path, {"time", "event", "text", "seconds"});
+            performance_.markers.push_back(std::move(marker));
+        }
+        std::ranges::stable_sort(performance_.markers, {}, &Marker::time_seconds);
+        return Done{};
+    }
+
+    Result<Ease> read_ease(const Json& value, const std::string& path, std::string_view others) const {
+        if (!value.is_string()) return wrong_type(path, "a string", value);
+        const auto& name = value.get_ref<const std::string&>();
+        if (const std::optional<Ease> ease = find_ease(name)) return *ease;
+        return error(path + ": " + in_quotes(name) + " is none of " + std::string(ease_names) + std::string(others));
+    }
+
+    Result<Track> read_track(const Json& channel, const std::string& path) {
         if (!channel.is_object()) return wrong_type(path, "an object", channel);
-        const Result<Shape> shape = read_shape(channel, path);
-        if (!shape) return shape.error();
+        const auto interpolation = channel.find("interpolation");
+        const bool cubic = interpolation != channel.end() && *interpolation == "cubic";
+        Ease ease = Ease::smooth;
+        if (interpolation != channel.end() && !cubic) {
+            const Result<Ease> read = read_ease(*interpolation, path + ".interpolation", ", cubic");
+            if (!read) return read.error();
+            ease = *read;
+        }
         const auto keys = channel.find("keys");
         if (keys == channel.end()) return error(path + ": the key 'keys' is missing");
         if (!keys->is_array()) return wrong_type(path + ".keys", "an array", *keys);
@@ -178,43 +233,89 @@ private:
         note_unknown_keys(channel, path, {"interpolation", "keys"});
 
         Track track;
-        track.interpolation = *shape == Shape::step    ? Interpolation::step
-                              : *shape == Shape::cubic ? Interpolation::cubic_spline
-                                                       : Interpolation::linear;
+        track.interpolation = cubic ? Interpolation::cubic_spline : Interpolation::linear;
+        track.times_seconds.reserve(keys->size());
+        track.values.reserve(keys->size() * (cubic ? 3 : 1));
+        std::vector<Ease> eases(cubic ? 0 : keys->size(), ease);
         for (std::size_t i = 0; i < keys->size(); ++i) {
-            const Status added = add_key((*keys)[i], path + ".keys[" + std::to_string(i) + "]", track);
-            if (!added) return added.error();
+            const Json& key = (*keys)[i];
+            const bool well_formed = cubic ? add_cubic_key(key, track) : add_key(key, track, eases[i]);
+            if (!well_formed) return fault_of_key(key, entry(path + ".keys", i), track);
         }
-        return *shape == Shape::smooth ? smooth_track(track) : track;
+        return cubic ? track : eased_track(track, eases);
     }
 
-    Status add_key(const Json& key, const std::string& path, Track& track) const {
+    /// A number that may stand in a key; what does not is described by fault_of_key().
+    static bool good(const Json& value) {
+        return value.is_number() &&
+               std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
+    }
+    static bool good_time(const Json& value, const Track& track) {
+        if (!good(value)) return false;
+        const float time = value.get<float>();
+        return time >= 0 && (track.times_seconds.empty() || time > track.times_seconds.back());
+    }
+
+    /// [time, value] or [time, value, ease]. A path for every key of a million would cost more than the keys.
+    static bool add_key(const Json& key, Track& track, Ease& ease) {
+        if (!key.is_array() || key.size() < 2 || key.size() > 3) return false;
+        if (!good_time(key[0], track) || !good(key[1])) return false;
+        if (key.size() == 3) {
+            const std::optional<Ease> own =
+                key[2].is_string() ? find_ease(key[2].get_ref<const std::string&>()) : std::nullopt;
+            if (!own) return false;
+            ease = *own;
+        }
+        track.times_seconds.push_back(key[0].get<float>());
+        track.values.push_back(key[1].get<float>());
+        return true;
+    }
+
+    /// [time, value, in_tangent, out_tangent]
+    static bool add_cubic_key(const Json& key, Track& track) {
+        if (!key.is_array() || key.size() != 4 || !good_time(key[0], track)) return false;
+        for (std::size_t i = 1; i < 4; ++i) {
+            if (!good(key[i])) return false;
+        }
+        track.times_seconds.push_back(key[0].get<float>());
+        track.values.insert(track.values.end(), {key[2].get<float>(), key[1].get<float>(), key[3].get<float>()});
+        return true;
+    }
+
+    /// What add_key() or add_cubic_key() refused, in a sentence.
+    Error fault_of_key(const Json& key, const std::string& path, const Track& track) const {
         const bool cubic = track.interpolation == Interpolation::cubic_spline;
-        const std::size_t wanted = cubic ? 4 : 2;
         if (!key.is_array()) return wrong_type(path, "an array", key);
-        if (key.size() != wanted) {
+        if (cubic ? key.size() != 4 : key.size() < 2 || key.size() > 3) {
             return error(path + " must have " +
-                         (cubic ? "4 numbers (time, value, in-tangent, out-tangent)" : "2 numbers (time, value)") +
-                         ", not " + std::to_string(key.size()));
+                         (cubic ? "4 numbers (time, value, in-tangent, out-tangent)"
+                                : "2 numbers (time, value), perhaps with an ease") +
+                         ", not " + std::to_string(key.size()) + (cubic ? "" : " entries"));
         }
-        std::array<float, 4> numbers{};
-        for (std::size_t i = 0; i < wanted; ++i) {
-            const Result<float> number = read_number(key[i], path + "[" + std::to_string(i) + "]");
-            if (!number) return number.error();
-            numbers[i] = *number;
+        for (std::size_t i = 0; i < (cubic ? 4 : 2); ++i) {
+            if (const Result<float> number = read_number(key[i], entry(path, i)); !number) return number.error();
         }
-        const auto [time, value, in_tangent, out_tangent] = numbers;
-        if (time < 0) return error(path + "[0]: the time " + key[0].dump() + " is before 0");
-        if (!track.times_seconds.empty() && !(time > track.times_seconds.back())) {
-            return error(path + "[0]: the time " + key[0].dump() + " does not come after that of the key before");
+        if (good_time(key[0], track)) {
+            const Result<Ease> ease = read_ease(key[2], entry(path, 2), "");
+            assert(!ease && "a good key was refused");
+            return ease.error();
         }
-        track.times_seconds.push_back(time);
-        if (cubic) {
-            track.values.insert(track.values.end(), {in_tangent, value, out_tangent});
-        } else {
-            track.values.push_back(value);
+        if (key[0].get<float>() < 0) return error(entry(path, 0) + ": the time " + key[0].dump() + " is before 0");
+        return error(entry(path, 0) + ": the time " + key[0].dump() + " does not come after that of the key before");
+    }
+
+    void find_duration() {
+        float& duration = performance_.duration_seconds;
+        duration = performance_.loop.end_seconds();
+        for (const PerformanceLayer& layer : performance_.layers) {
+            duration =
+                std::max({duration, layer.start_seconds + layer.loop.end_seconds(), layer.weight.times_seconds.back()});
         }
-        return Done{};
+        for (const Marker& marker : performance_.markers) {
+            duration = std::max(duration, marker.time_seconds + marker.text_seconds);
+        }
+        // Times near the end of a float's range could add up to an infinity.
+        duration = std::min(duration, std::numeric_limits<float>::max());
     }
 
     std::string file_;
@@ -224,11 +325,7 @@ private:
 }  // namespace
 
 Result<Performance> read_performance_json(std::string_view text, const std::string& file) {
-    if (text.size() > most_bytes) {
-        return Error{file + ": a JSON performance may have " + std::to_string(most_bytes >> 20) + " MiB, this has " +
-                     std::to_string(text.size() >> 20)};
-    }
-    const Result<Json> root = parse(text, file);
+    const Result<Json> root = parse_json(text, file, "a JSON performance");
     if (!root) return root.error();
     return Reader(file).read(*root);
 }

@@ -1,6 +1,9 @@
 #pragma once
-/// Tangents for keys that a person wrote as times and values alone.
+/// Keys whose stretches ease in different ways, as one cubic spline.
 
+#include <span>
+
+#include "rig/ease.h"
 #include "rig/face.h"
 
 namespace blush {
@@ -12,5 +15,8 @@ namespace blush {
 /// Stat. Comput. 5(2), 1984, in the weighted form for uneven steps (Brodlie). Level ends are ours: outside its keys a
 /// track holds, so only a level end joins that without a kink.
 Track smooth_track(const Track& linear);
+
+/// The same keys; `eases[i]` says how the curve goes from key i to the next (the last one counts for nothing).
+Track eased_track(const Track& linear, std::span<const Ease> eases);
 
 }  // namespace blush

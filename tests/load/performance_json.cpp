@@ -85,10 +85,10 @@ TEST(PerformanceJson, SmoothNeverPassesBeyondItsKeys) {
 
 TEST(PerformanceJson, UnknownKeysAreNotes) {
     const auto loaded = load_text(
-        R"({"blush_performance": 1, "layers": [], "channels": {"jawOpen": {"keys": [[0, 1]], "easing": 3}}, "by": "me"})");
+        R"({"blush_performance": 1, "emotions": [], "channels": {"jawOpen": {"keys": [[0, 1]], "easing": 3}}, "by": "me"})");
     ASSERT_TRUE(loaded);
     EXPECT_THAT(loaded->notes, ElementsAre("channels.jawOpen: the key 'easing' is not known and counts for nothing",
-                                           "the key 'layers' is not known and counts for nothing",
+                                           "the key 'emotions' is not known and counts for nothing",
                                            "the key 'by' is not known and counts for nothing"));
     EXPECT_EQ(loaded->channels.size(), 1U);
 }
@@ -116,7 +116,7 @@ TEST(PerformanceJson, EveryFaultHasItsSentence) {
         {jaw(R"("keys": 3)"), "channels.jawOpen.keys must be an array, not number"},
         {jaw(R"("keys": [])"), "channels.jawOpen.keys is empty; a channel needs at least one key"},
         {jaw(R"("keys": [[0, 1], 5])"), "channels.jawOpen.keys[1] must be an array, not number"},
-        {jaw(R"("keys": [[0, 1, 2]])"), "channels.jawOpen.keys[0] must have 2 numbers (time, value), not 3"},
+        {jaw(R"("keys": [[0, 1, 2]])"), "channels.jawOpen.keys[0][2] must be a string, not number"},
         {jaw(R"("interpolation": "cubic", "keys": [[0, 1]])"),
          "channels.jawOpen.keys[0] must have 4 numbers (time, value, in-tangent, out-tangent), not 2"},
         {jaw(R"("keys": [[0, 1], [1, 1], [2, 1], [3, "x"]])"),
@@ -128,7 +128,7 @@ TEST(PerformanceJson, EveryFaultHasItsSentence) {
          "channels.jawOpen.keys[2][0]: the time 0.5 does not come after that of the key before"},
         {jaw(R"("interpolation": 1, "keys": [[0, 1]])"), "channels.jawOpen.interpolation must be a string, not number"},
         {jaw(R"("interpolation": "bezier", "keys": [[0, 1]])"),
-         "channels.jawOpen.interpolation: 'bezier' is none of smooth, linear, step, cubic"},
+         "channels.jawOpen.interpolation: 'bezier' is none of smooth, linear, step, ease-in, ease-out, ease-in-out, cubic"},
         {R"({"blush_performance": 1, "channels": {"a": {"keys": [[0, 1]]}, "a": {"keys": [[0, 2]]}}})",
          "the key 'a' is there twice in one object"},
         {"{\"layers\": " + std::string(100, '['), "nested more than 16 deep"},

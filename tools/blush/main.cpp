@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     blush::tool::add_explain(app, exit_status);
     blush::tool::add_kernel(app, exit_status);
     blush::tool::add_accuracy(app, exit_status);
+    blush::tool::add_bake(app, exit_status);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -75,5 +75,9 @@ void add_play(CLI::App& app, int& exit_status);
 void add_explain(CLI::App& app, int& exit_status);
 void add_accuracy(CLI::App& app, int& exit_status);
 void add_kernel(CLI::App& app, int& exit_status);
+void add_bake(CLI::App& app, int& exit_status);
+
+// The subcommands of bake.
+void add_bake_appearance(CLI::App& bake_command, int& exit_status);
 
 }  // namespace blush::tool

@@ -167,9 +167,8 @@ void Panel::draw_controls(Character& character, ViewerState& state) {
 }
 
 void Panel::draw_control(std::uint32_t control, Character& character, ViewerState& state) {
-    // Weights go from 0 to 1, angles (the controls after the targets) from -1 to 1 radian, which no neck exceeds by
-    // far. Control and a click take a number beyond.
-    const float low = control < character.rig().target_count() ? 0.0F : -1.0F;
+    // Control and a click take a number beyond the usual range.
+    const ControlInfo& info = character.rig().info(static_cast<ControlId>(control));
     std::optional<float>& held = state.held_controls[control];
     float value = character.controls()[control];
     const std::string& name = character.rig().control_names()[control];
@@ -179,7 +178,7 @@ void Panel::draw_control(std::uint32_t control, Character& character, ViewerStat
     const bool was_held = held.has_value();
     if (was_held) ImGui::PushStyleColor(ImGuiCol_Text, held_color);
     ImGui::SetNextItemWidth(0.4F * ImGui::GetContentRegionAvail().x);
-    if (ImGui::SliderFloat("##value", &value, low, 1, "%.2f")) held = value;
+    if (ImGui::SliderFloat("##value", &value, info.low, info.high, "%.2f")) held = value;
     ImGui::SameLine();
     if (was_held) {
         if (ImGui::Button("x", {reset_width, 0})) held.reset();
