@@ -328,7 +328,8 @@ void remove(lua_State* lua, std::initializer_list<const char*> names) {
 
 void open_safe_library(lua_State* lua, unsigned long long seed) {
     luaL_requiref(lua, "_G", luaopen_base, 1);
-    // xpcall()'s handler runs inside of the hook that ended the step, where no hook is called: a loop in it would not end.
+    // xpcall()'s handler runs inside of the hook that ended the step, where no hook is called: a loop in it would not
+    // end.
     remove(lua, {"collectgarbage", "dofile", "load", "loadfile", "require", "warn", "xpcall"});
     wrap(lua, "next", next);
     wrap(lua, "pairs", pairs);

@@ -128,7 +128,8 @@ TEST(PerformanceJson, EveryFaultHasItsSentence) {
          "channels.jawOpen.keys[2][0]: the time 0.5 does not come after that of the key before"},
         {jaw(R"("interpolation": 1, "keys": [[0, 1]])"), "channels.jawOpen.interpolation must be a string, not number"},
         {jaw(R"("interpolation": "bezier", "keys": [[0, 1]])"),
-         "channels.jawOpen.interpolation: 'bezier' is none of smooth, linear, step, ease-in, ease-out, ease-in-out, cubic"},
+         "channels.jawOpen.interpolation: 'bezier' is none of smooth, linear, step, ease-in, ease-out, ease-in-out, "
+         "cubic"},
         {R"({"blush_performance": 1, "channels": {"a": {"keys": [[0, 1]]}, "a": {"keys": [[0, 2]]}}})",
          "the key 'a' is there twice in one object"},
         {"{\"layers\": " + std::string(100, '['), "nested more than 16 deep"},
