@@ -69,4 +69,27 @@ std::vector<KernelTap> separable_kernel(const KernelShape& shape, std::uint32_t 
     return taps;
 }
 
+std::vector<KernelTap> preintegrated_kernel(std::span<const GaussianTerm> profile, double width, std::uint32_t count) {
+    assert(count >= 3 && count % 2 == 1 && "preintegrated_kernel: an odd number of taps");
+    const double range = 3 * width * std::sqrt(profile.back().variance_mm2);
+    std::vector<KernelTap> taps(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double step = -1 + 2.0 * i / (count - 1);
+        taps[i].offset_mm = 2 * i + 1 == count ? 0 : range * std::copysign(step * step, step);
+    }
+    // step_response() is the line integral's own integral.
+    const auto until = [&](std::uint32_t i) {
+        const double end = i + 1 == count ? range : 0.5 * (taps[i].offset_mm + taps[i + 1].offset_mm);
+        return step_response(profile, end / width);
+    };
+    const glm::dvec3 first = step_response(profile, -range / width), whole = until(count - 1) - first;
+    glm::dvec3 before = first;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::dvec3 end = until(i);
+        taps[i].weight = (end - before) / whole;
+        before = end;
+    }
+    return taps;
+}
+
 }  // namespace blush

@@ -126,7 +126,8 @@ Sh9Color project_environment(std::span<const float> pixels, std::uint32_t width,
             glm::dvec3 radiance(0);
             for (std::uint32_t c = 0; c < 3; ++c) {
                 const float value = pixels[at + (channels >= 3 ? c : 0)];
-                if (std::isfinite(value)) radiance[static_cast<glm::length_t>(c)] = std::max(0.0F, value);
+                if (std::isfinite(value))
+                    radiance[static_cast<glm::length_t>(c)] = static_cast<double>(std::max(0.0F, value));
             }
             const Sh9 basis = sh_basis(environment_direction((x + 0.5) / width, (y + 0.5) / height));
             for (std::size_t i = 0; i < 9; ++i) result[i] += solid_angle * basis[i] * radiance;

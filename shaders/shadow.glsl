@@ -58,19 +58,22 @@ float lit_share(int i, vec3 vertex_normal, vec3 l) {
     return sum / 9.0;
 }
 
-// How far the light came inside, world units; of a point that stands a little below the surface.
-float depth_inside(int i, vec3 place_world) {
+// How far the light came inside, world units, at most `most`; of a point that stands a little below the surface. Where
+// the map is empty the light met no outside of the surface: none came inside.
+float depth_inside(int i, vec3 place_world, float most) {
     vec4 place = shadow_place(i, place_world);
-    if (place.w == 0.0) return 1e9;
+    if (place.w == 0.0) return most;
     vec2 at = shadow_texel(i, place.xy) - 0.5;
     vec2 part = fract(at);
     ivec2 corner = ivec2(floor(at));
-    float entered = 0.0;
+    float here = shadow_distance(i, place.z);
+    float inside = 0.0;
     for (int y = 0; y < 2; ++y) {
         for (int x = 0; x < 2; ++x) {
             float z = texelFetch(shadow_map, corner + ivec2(x, y), 0).r;
-            entered += (x == 0 ? 1.0 - part.x : part.x) * (y == 0 ? 1.0 - part.y : part.y) * shadow_distance(i, z);
+            float depth = z < 1.0 ? clamp(here - shadow_distance(i, z), 0.0, most) : most;
+            inside += (x == 0 ? 1.0 - part.x : part.x) * (y == 0 ? 1.0 - part.y : part.y) * depth;
         }
     }
-    return max(shadow_distance(i, place.z) - entered, 0.0);
+    return inside;
 }

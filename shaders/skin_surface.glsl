@@ -32,7 +32,9 @@ vec3 transmitted(int i, vec3 l, vec3 vertex_normal) {
     // The reversed vertex normal, some 17 degrees early so that it meets what the front reflects (eq. 5.13).
     float back = max(0.3 - dot(vertex_normal, l), 0.0);
     if (back == 0.0 || lights[i].shadow.x < 0.0) return vec3(0.0);
-    float thickness_mm = depth_inside(i, position_world - vertex_normal * (translucency.y / skin.x)) * skin.x;
+    float thickness_mm = depth_inside(i, position_world - vertex_normal * (translucency.y / skin.x),
+                                      BLUSH_TRANSMITTANCE_END_MM / skin.x) *
+                         skin.x;
     // The paper leaves the thickness short by what the point was drawn in towards the light; a slab has it all.
     thickness_mm += translucency.y * max(-dot(vertex_normal, l), 0.0);
     float u = clamp(thickness_mm / BLUSH_TRANSMITTANCE_END_MM, 0.0, 1.0);

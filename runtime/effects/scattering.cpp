@@ -11,15 +11,21 @@ namespace {
 
 constexpr std::array<std::string_view, 5> method_choices = {"separable", "gaussians4", "gaussians6", "jittered", "off"};
 constexpr std::array<std::string_view, 4> sample_choices = {"9", "17", "25", "33"};
+constexpr std::array<std::string_view, 2> kernel_choices = {"fitted", "preintegrated"};
 constexpr std::array<std::string_view, 2> follow_choices = {"on", "off"};
 
-constexpr std::array<Setting, 12> settings = {{
+constexpr std::array<Setting, 13> settings = {{
     {"method",
      "separable: two passes (jimenez-2012, chapter 6); gaussians4, gaussians6: two passes for each but the narrowest "
      "(chapter 4); jittered: one pass of thirteen taps (4.2); off: light leaves where it entered",
      method_choices, 0},
     {"samples", "taps of a separable pass: 9, 17, 25 or 33, more of them for smoother edges of hard shadows",
      sample_choices, 1},
+    {"kernel",
+     "of the separable passes; fitted: eq. 6.1 with strengths and falloffs; preintegrated: the profile's integral "
+     "along a "
+     "line, which has neither",
+     kernel_choices, 0},
     {"follow_surface", "on: light does not cross steps of depth; off: it does", follow_choices, 0},
     {"width", "how far light goes; 1: as the measured profile has it", {}, 0, 0.01, 10, 1.12},
     {"strength_red", "share of red light that enters", {}, 0, 0, 1, 0.969},
@@ -41,6 +47,7 @@ constexpr std::array<Setting, 12> settings = {{
 struct State {
     ScatterPasses passes;
     KernelShape shape;
+    std::uint8_t kernel = 0;
     std::vector<KernelTap> taps;
     JitteredKernel jittered;
     ResourceId first{}, second{}, third{}, stencil{};
@@ -108,9 +115,13 @@ void scatter(CharacterState& state, const FrameGraph& graph) {
         case ScatterMethod::separable: {
             const KernelShape shape = scatter_kernel_shape(state);
             const std::uint32_t samples = 9U + 8U * state.settings.choice("scattering", "samples");
-            if (!(own.shape == shape) || own.taps.size() != samples) {
+            const std::uint8_t kernel = state.settings.choice("scattering", "kernel");
+            if (!(own.shape == shape) || own.kernel != kernel || own.taps.size() != samples) {
                 own.shape = shape;
-                own.taps = separable_kernel(shape, samples);
+                own.kernel = kernel;
+                own.taps = kernel == 0 ? separable_kernel(shape, samples)
+                                       : preintegrated_kernel(skin_six_gaussians(),
+                                                              shape.width / skin_kernel_shape().width, samples);
             }
             own.passes.separable(input, own.taps, {.first = handle(own.first), .stencil = handle(own.stencil)}, scene);
             break;

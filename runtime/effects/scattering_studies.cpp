@@ -136,7 +136,7 @@ std::vector<Study> scattering_studies(const Device& device, const Face& face, do
                          std::function<void(Scene&)> draw) {
         Variant variant;
         variant.label = std::move(label);
-        variant.is_default = method == ScatterMethod::separable && samples == 17;
+        variant.is_default = variant.label == "scattering.samples=17";
         variant.work = std::to_string(ScatterPasses::fetches_a_pixel(method, samples, scene->input.follow_mm > 0)) +
                        " fetches a pixel of skin";
         Scene* raw = scene.get();
@@ -158,6 +158,9 @@ std::vector<Study> scattering_studies(const Device& device, const Face& face, do
         add("scattering.samples=" + std::to_string(samples), ScatterMethod::separable, samples,
             [taps, scratch](Scene& s) { s.passes.separable(s.input, taps, scratch, s.scene.name()); });
     }
+    const std::vector<KernelTap> line = preintegrated_kernel(skin_six_gaussians(), 1, 17);
+    add("scattering.kernel=preintegrated", ScatterMethod::separable, 17,
+        [line, scratch](Scene& s) { s.passes.separable(s.input, line, scratch, s.scene.name()); });
     for (const ScatterMethod method : {ScatterMethod::gaussians4, ScatterMethod::gaussians6}) {
         const bool four = method == ScatterMethod::gaussians4;
         add(four ? "scattering.method=gaussians4" : "scattering.method=gaussians6", method, 0,

@@ -52,6 +52,10 @@ void ensure_maps(CharacterState& state, ShadowMaps& maps) {
     maps.count = count;
 }
 
+bool is_double_sided(const Face& face, const Primitive& primitive) {
+    return primitive.material >= 0 && face.materials[static_cast<std::size_t>(primitive.material)].double_sided;
+}
+
 /// What casts shadows: all that is solid. Cut-out and blended cards would cast their whole outline.
 bool casts_shadow(const Face& face, const Primitive& primitive) {
     return primitive.material < 0 ||
@@ -75,13 +79,22 @@ void draw_maps(CharacterState& state) {
         if (light.shadow.x < 0) continue;
         glViewport(static_cast<GLint>(light.shadow.x) * side, 0, side, side);
         glUniformMatrix4fv(0, 1, GL_FALSE, &light.shadow_from_world[0][0]);
-        each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t draw_index, bool) {
+        each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t draw_index, bool mirrored) {
             if (!casts_shadow(state.face, primitive)) return;
+            // Only what light can meet from outside: through the open back of a shell it would come in at once, and
+            // shine through the front as if that were thin.
+            if (is_double_sided(state.face, primitive)) {
+                glDisable(GL_CULL_FACE);
+            } else {
+                glEnable(GL_CULL_FACE);
+            }
+            glFrontFace(mirrored ? GL_CW : GL_CCW);
             state.model.bind_draw(draw_index);
             draw_elements(state, primitive);
         });
         maps.drawn_views.push_back(light.shadow_from_world);
     }
+    glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
     maps.drawn_active = state.active;

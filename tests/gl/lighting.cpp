@@ -136,7 +136,7 @@ TEST_F(Lights, ASurfaceInTheLightHasNoFreckles) {
         view.lighting = &lighting;
         const Image shadowed = test::draw(with, offscreen, view), free = test::draw(without, offscreen, view);
         const float n_l = glm::normalize(towards).z;
-        EXPECT_NEAR(pixel(free, side / 2, side / 2).r, n_l, 1e-3F);
+        EXPECT_LE(std::abs(pixel(free, side / 2, side / 2).r - n_l), 1e-3F);
         for (std::uint32_t y = 2; y < side - 2; ++y) {
             for (std::uint32_t x = 2; x < side - 2; ++x)
                 ASSERT_EQ(pixel(shadowed, x, y), pixel(free, x, y)) << x << " " << y;
@@ -162,7 +162,8 @@ TEST_F(Lights, AShadowFallsWhereTheLightIsBlocked) {
     for (std::uint32_t x = 1; x < side / 2 - 1; ++x) {
         const double at_mm = -30 + (x + 0.5) * pixel_mm;
         if (std::abs(at_mm + 10) < 1.0) continue;  // the filter's width, and the bias
-        EXPECT_NEAR(pixel(image, x, side / 2).r, at_mm < -10 ? std::sqrt(0.5F) : 0.0F, 2e-3F) << at_mm << " mm";
+        EXPECT_LE(std::abs(pixel(image, x, side / 2).r - (at_mm < -10 ? std::sqrt(0.5F) : 0.0F)), 2e-3F)
+            << at_mm << " mm";
     }
 }
 
@@ -192,7 +193,7 @@ TEST_F(Lights, PointAndSpotLightsFollowTheInverseSquareAndTheirCone) {
     lighting.lights[0].inner_radians = 0.04F;
     lighting.lights[0].outer_radians = 0.08F;  // 16 mm at 200 mm
     image = test::draw(character, offscreen, view);
-    EXPECT_NEAR(pixel(image, side / 2, side / 2).r, 1, 3e-3F);
+    EXPECT_LE(std::abs(pixel(image, side / 2, side / 2).r - 1), 3e-3F);
     EXPECT_EQ(pixel(image, 4, side / 2).r, 0.0F);
 }
 
@@ -223,7 +224,8 @@ TEST_F(Lights, AWhiteFurnaceStaysWhite) {
             for (std::size_t p = 0; p < image.floats.size(); p += 4) {
                 if (image.floats[p] == 0) continue;
                 ++seen;
-                for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(image.floats[p + c], 1, 0.002F) << "pixel " << p / 4;
+                for (std::size_t c = 0; c < 3; ++c)
+                    ASSERT_LE(std::abs(image.floats[p + c] - 1), 0.002F) << "pixel " << p / 4;
             }
             EXPECT_GT(seen, 500U);
         }

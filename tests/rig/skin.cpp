@@ -112,6 +112,21 @@ TEST(SeparableKernel, WeightsSumToOneAndThinOutFromTheCentre) {
     }
 }
 
+TEST(SeparableKernel, ThePreintegratedOneIsTheStepResponse) {
+    const std::vector<KernelTap> taps = preintegrated_kernel(skin_six_gaussians(), 1, 33);
+    glm::dvec3 sum(0), below(0);
+    for (const KernelTap& tap : taps) {
+        sum += tap.weight;
+        if (tap.offset_mm < 0) below += tap.weight;
+    }
+    expect_near(sum, glm::dvec3(1), 1e-12, "sum");
+    expect_near(below + 0.5 * taps[16].weight, glm::dvec3(0.5), 1e-12, "symmetric");
+    // Of red light, what goes beyond 1 mm on one side.
+    double beyond = 0;
+    for (const KernelTap& tap : taps) beyond += tap.offset_mm > 1 ? tap.weight.r : 0;
+    EXPECT_NEAR(beyond, 1 - step_response(skin_six_gaussians(), 1).r, 0.03);
+}
+
 TEST(SeparableKernel, ParametersDoWhatTheirNamesSay) {
     const KernelShape skin = skin_kernel_shape();
     const auto spread = [](const KernelShape& shape, glm::length_t c) {

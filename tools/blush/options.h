@@ -84,6 +84,7 @@ void add_explain(CLI::App& app, int& exit_status);
 void add_accuracy(CLI::App& app, int& exit_status);
 void add_controls(CLI::App& app, int& exit_status);
 void add_lint(CLI::App& app, int& exit_status);
+void add_kernel(CLI::App& app, int& exit_status);
 void add_bake(CLI::App& app, int& exit_status);
 void add_antialias(CLI::App& app, int& exit_status);
 
@@ -91,6 +92,5 @@ void add_antialias(CLI::App& app, int& exit_status);
 void add_bake_appearance(CLI::App& bake_command, int& exit_status);
 void add_bake_wrinkles(CLI::App& bake_command, int& exit_status);
 void add_bake_smaa_tables(CLI::App& bake_command, int& exit_status);
-void add_kernel(CLI::App& app, int& exit_status);
 
 }  // namespace blush::tool
