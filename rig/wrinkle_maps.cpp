@@ -23,11 +23,13 @@ constexpr std::size_t few_shapes = 3;
 /// Folds of one forehead differ in depth: this much of it, over patches of about this size. By eye.
 constexpr float depth_variation = 0.6F;
 constexpr float patch_mm = 6;
+/// Share of a zone's full compression at which its mask begins: what an expression drags along does not fold.
+constexpr float mask_begins = 0.3F;
 /// Skin that gets shorter by this part or less does not fold.
 constexpr float least_compression = 0.01F;
 /// Share of the shortening that goes into folds; the rest thickens the tissue. By eye: furrows of a forehead are then
-/// 0.2 to 0.5 mm deep at 6 mm from one to the next.
-constexpr float folded_share = 0.1F;
+/// 0.2 to 0.5 mm deep at 8 mm from one to the next.
+constexpr float folded_share = 0.05F;
 
 /// The surface at a texel, in the mesh's axes, millimetres.
 struct Chart {
@@ -326,7 +328,9 @@ WrinkleMaps bake_wrinkles(const Face& face, std::span<const std::uint8_t> skin, 
     for (std::size_t zone = 0; zone < zones; ++zone) {
         masks.push_back(baker.zone_field(zone));
         full.push_back(Baker::full_compression(masks.back()));
-        for (float& value : masks.back()) value = full[zone] > 0 ? std::min(value / full[zone], 1.0F) : 0;
+        for (float& value : masks.back()) {
+            value = full[zone] > 0 ? glm::smoothstep(mask_begins, 1.0F, value / full[zone]) : 0;
+        }
     }
     Field compression(map_texels, 0);  // full compression of the zones that a texel belongs to
     for (std::size_t i = 0; i < map_texels; ++i) {

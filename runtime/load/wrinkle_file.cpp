@@ -135,6 +135,12 @@ Image blank(std::uint32_t width, std::uint32_t height, std::uint32_t channels) {
     return image;
 }
 
+/// Four channels of weights are not a colour with its opacity: the picture is encoded as it is.
+Status write_png(const fs::path& path, const Image& image) {
+    const load::Bytes png = load::encode_png(image.width, image.height, image.channels, image.bytes);
+    return write_file(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
 }  // namespace
 
 Status write_wrinkles(const fs::path& folder, const WrinkleSet& wrinkles) {
@@ -149,7 +155,7 @@ Status write_wrinkles(const fs::path& folder, const WrinkleSet& wrinkles) {
             derivatives.bytes[3 * i + c] = static_cast<std::uint8_t>(
                 128 + stored_derivative(wrinkles.derivatives.values[i][static_cast<glm::length_t>(c)], wrinkles.range));
     }
-    if (Status s = write_image(folder / (std::string(derivatives_name) + ".png"), derivatives); !s) return s;
+    if (Status s = write_png(folder / (std::string(derivatives_name) + ".png"), derivatives); !s) return s;
     for (std::size_t m = 0; m * zones_a_mask < wrinkles.masks.size(); ++m) {
         Image masks = blank(wrinkles.masks[0].width, wrinkles.masks[0].height, zones_a_mask);
         for (std::size_t c = 0; c < zones_a_mask && m * zones_a_mask + c < wrinkles.masks.size(); ++c) {
@@ -158,7 +164,7 @@ Status write_wrinkles(const fs::path& folder, const WrinkleSet& wrinkles) {
                 masks.bytes[zones_a_mask * i + c] =
                     static_cast<std::uint8_t>(std::lround(255 * std::clamp(mask.values[i], 0.0F, 1.0F)));
         }
-        if (Status s = write_image(folder / (std::string(mask_names[m]) + ".png"), masks); !s) return s;
+        if (Status s = write_png(folder / (std::string(mask_names[m]) + ".png"), masks); !s) return s;
     }
     const Json json = {{"zones", wrinkles.zones}, {"range", wrinkles.range}};
     return write_file(folder / "wrinkles.json", json.dump(2) + "\n");

@@ -30,28 +30,29 @@ WrinkleSet small_set(float range) {
 class WrinkleFile : public testing::Test {
 protected:
     void expect_refused(const std::string& reason) const {
-        const Result<WrinkleSet> read = load_wrinkles(folder_.path());
+        const Result<WrinkleSet> read = load_wrinkles(folder());
         ASSERT_FALSE(read);
-        EXPECT_EQ(read.error().message, folder_.path().string() + ": " + reason);
+        EXPECT_EQ(read.error().message, folder().string() + ": " + reason);
     }
     void write(const std::string& name, const std::string& text) const {
-        ASSERT_TRUE(write_file(folder_.path() / name, text));
+        ASSERT_TRUE(write_file(folder() / name, text));
     }
     void write_picture(const std::string& name, std::uint32_t side, std::uint32_t channels, float value) const {
         Image image;
         image.width = image.height = side;
         image.channels = channels;
         image.floats.assign(std::size_t{side} * side * channels, value);
-        ASSERT_TRUE(write_image(folder_.path() / name, image));
+        ASSERT_TRUE(write_image(folder() / name, image));
     }
+    std::filesystem::path folder() const { return folder_ / ""; }
     test::TemporaryFolder folder_;
 };
 
 TEST_F(WrinkleFile, ThereAndBackWithinHalfAStep) {
     for (const float range : {1.0F, 2.5F}) {
         const WrinkleSet set = small_set(range);
-        ASSERT_TRUE(write_wrinkles(folder_.path(), set));
-        const Result<WrinkleSet> read = load_wrinkles(folder_.path());
+        ASSERT_TRUE(write_wrinkles(folder(), set));
+        const Result<WrinkleSet> read = load_wrinkles(folder());
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(read->zones, set.zones);
         EXPECT_EQ(read->range, range);
@@ -66,20 +67,20 @@ TEST_F(WrinkleFile, ThereAndBackWithinHalfAStep) {
 }
 
 TEST_F(WrinkleFile, FloatingPointMapsAreReadAsTheyAre) {
-    ASSERT_TRUE(write_wrinkles(folder_.path(), small_set(1)));
-    std::filesystem::remove(folder_.path() / "wrinkles.png");
+    ASSERT_TRUE(write_wrinkles(folder(), small_set(1)));
+    std::filesystem::remove(folder() / "wrinkles.png");
     write_picture("wrinkles.exr", 3, 3, 0.25F);
-    const Result<WrinkleSet> read = load_wrinkles(folder_.path());
+    const Result<WrinkleSet> read = load_wrinkles(folder());
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->derivatives.values[4], glm::vec2(0.25F));
     write_picture("wrinkles.exr", 3, 3, std::numeric_limits<float>::quiet_NaN());
-    const Result<WrinkleSet> odd = load_wrinkles(folder_.path());
+    const Result<WrinkleSet> odd = load_wrinkles(folder());
     ASSERT_TRUE(odd) << odd.error().message;
     for (const glm::vec2& derivative : odd->derivatives.values) EXPECT_EQ(derivative, glm::vec2(0));
 }
 
 TEST_F(WrinkleFile, WhatIsWrongIsNamed) {
-    EXPECT_FALSE(load_wrinkles(folder_.path()));
+    EXPECT_FALSE(load_wrinkles(folder()));
     write("wrinkles.json", "{");
     expect_refused("wrinkles.json: not a JSON object");
     write("wrinkles.json", R"({"zones": ["a"], "colour": 3})");
@@ -89,7 +90,7 @@ TEST_F(WrinkleFile, WhatIsWrongIsNamed) {
     write("wrinkles.json", R"({"zones": ["a"], "range": 0})");
     expect_refused("wrinkles.json: range: not a number above 0, to 100");
     write("wrinkles.json", R"({"zones": ["a", "b", "c", "d", "e"]})");
-    EXPECT_THAT(load_wrinkles(folder_.path()).error().message, testing::HasSubstr("wrinkles.png"));
+    EXPECT_THAT(load_wrinkles(folder()).error().message, testing::HasSubstr("wrinkles.png"));
     write_picture("wrinkles.png", 4, 1, 0.5F);
     expect_refused("wrinkles.png: the image has 1 channel; partial derivatives stand in red and green");
     write_picture("wrinkles.png", 4, 3, 0.5F);
@@ -99,15 +100,15 @@ TEST_F(WrinkleFile, WhatIsWrongIsNamed) {
     write_picture("wrinkle_mask_2.png", 5, 4, 0.5F);
     expect_refused("wrinkle_mask_2.png: is 5x5 texels and wrinkle_mask_1 4x4; both masks are of one size");
     write("wrinkle_mask_2.png", "not a picture");
-    EXPECT_THAT(load_wrinkles(folder_.path()).error().message, testing::HasSubstr("wrinkle_mask_2.png: "));
+    EXPECT_THAT(load_wrinkles(folder()).error().message, testing::HasSubstr("wrinkle_mask_2.png: "));
 }
 
 TEST_F(WrinkleFile, NineZonesAreTooMany) {
     WrinkleSet set = small_set(1);
     set.zones.resize(9);
     set.masks.resize(9, ScalarMap(4, 4));
-    EXPECT_FALSE(write_wrinkles(folder_.path(), set));
-    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+    EXPECT_FALSE(write_wrinkles(folder(), set));
+    EXPECT_TRUE(std::filesystem::is_empty(folder()));
 }
 
 }  // namespace
