@@ -29,7 +29,7 @@ constexpr float mask_begins = 0.3F;
 constexpr float least_compression = 0.01F;
 /// Share of the shortening that goes into folds; the rest thickens the tissue. By eye: furrows of a forehead are then
 /// 0.2 to 0.5 mm deep at 8 mm from one to the next.
-constexpr float folded_share = 0.05F;
+constexpr float folded_share = 0.07F;
 
 /// The surface at a texel, in the mesh's axes, millimetres.
 struct Chart {

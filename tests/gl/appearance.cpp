@@ -140,8 +140,8 @@ TEST_F(Appearance, MoreBloodIsRedder) {
     const std::vector<glm::vec3> anger = made->colors("anger");
     for (std::size_t i = 0; i < anger.size(); ++i) {
         const auto x = i % AppearanceProbe::side;
-        if (x < 32) continue;  // no skin there
-        ASSERT_LT(anger[i].g / anger[i].r, 1.001F) << i;
+        if (x < 32) continue;                             // no skin there
+        ASSERT_LT(anger[i].g / anger[i].r, 1.003F) << i;  // a few half-float steps of the table, 1/2048 each
     }
     for (std::size_t i = 0; i < anger.size(); i += AppearanceProbe::side)
         ASSERT_NEAR(anger[i].g, 1, 2e-3) << "not skin";
