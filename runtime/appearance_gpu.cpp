@@ -22,52 +22,57 @@ gl::Texture texture_2d(GLenum format, std::uint32_t width, std::uint32_t height,
 
 template <class Texel>
 void upload(const gl::Texture& texture, std::uint32_t width, std::uint32_t height, GLenum format, GLenum type,
-            const std::vector<Texel>& texels) {
+            const std::vector<Texel>& texels, int level = 0) {
     // Rows of one or two bytes a texel need not end on four bytes.
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.name(), 0, 0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), format,
+    glTextureSubImage2D(texture.name(), level, 0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), format,
                         type, texels.data());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
-/// Two components, each within -1..1. Compression is the driver's own.
-gl::Texture two_channels(const Map<glm::vec2>& map, WrinkleStorage storage) {
-    constexpr std::array<GLenum, 3> formats = {GL_COMPRESSED_SIGNED_RG_RGTC2, GL_RG8_SNORM, GL_RG16F};
-    gl::Texture texture = texture_2d(formats[static_cast<std::size_t>(storage)], map.width, map.height);
-    if (storage == WrinkleStorage::half_float) {
-        upload(texture, map.width, map.height, GL_RG, GL_FLOAT, map.values);
-        return texture;
+int levels_of(std::uint32_t width, std::uint32_t height) {
+    return 1 + static_cast<int>(std::log2(std::max({width, height, 1U})));
+}
+
+/// The first `channels` of a map within -1..1, with its mip levels: without them folds flicker once they are narrower
+/// than a pixel. The levels are averaged here, since GL does not make those of compressed textures.
+gl::Texture signed_texture(GLenum format, Map<glm::vec3> map, std::size_t channels, bool floats) {
+    const int levels = levels_of(map.width, map.height);
+    gl::Texture texture = texture_2d(format, map.width, map.height, levels);
+    const GLenum components = channels == 2 ? GL_RG : GL_RGB;
+    for (int level = 0; level < levels; ++level) {
+        if (level > 0) map = resized(map, std::max(map.width / 2, 1U), std::max(map.height / 2, 1U));
+        std::vector<float> values;
+        std::vector<std::int8_t> bytes;
+        for (const glm::vec3& texel : map.values) {
+            for (std::size_t c = 0; c < channels; ++c) {
+                values.push_back(texel[static_cast<glm::length_t>(c)]);
+                bytes.push_back(stored_derivative(values.back(), 1));
+            }
+        }
+        if (floats) {
+            upload(texture, map.width, map.height, components, GL_FLOAT, values, level);
+        } else {
+            upload(texture, map.width, map.height, components, GL_BYTE, bytes, level);
+        }
     }
-    std::vector<std::int8_t> bytes;
-    bytes.reserve(2 * map.values.size());
-    for (const glm::vec2& value : map.values) {
-        bytes.push_back(stored_derivative(value.x, 1));
-        bytes.push_back(stored_derivative(value.y, 1));
-    }
-    upload(texture, map.width, map.height, GL_RG, GL_BYTE, bytes);
     return texture;
 }
 
+/// Compression is the driver's own.
 gl::Texture derivative_texture(const WrinkleSet& set, WrinkleStorage storage) {
-    Map<glm::vec2> scaled = set.derivatives;
-    for (glm::vec2& value : scaled.values) value /= set.range;
-    return two_channels(scaled, storage);
+    constexpr std::array<GLenum, 3> formats = {GL_COMPRESSED_SIGNED_RG_RGTC2, GL_RG8_SNORM, GL_RG16F};
+    Map<glm::vec3> scaled(set.derivatives.width, set.derivatives.height);
+    for (std::size_t i = 0; i < scaled.values.size(); ++i)
+        scaled.values[i] = glm::vec3(set.derivatives.values[i] / set.range, 0);
+    return signed_texture(formats[static_cast<std::size_t>(storage)], std::move(scaled), 2,
+                          storage == WrinkleStorage::half_float);
 }
 
 /// Differences need three channels, which RGTC has not (8.2.1): plain bytes, or half floats.
 gl::Texture difference_texture(const Map<glm::vec3>& map, WrinkleStorage storage) {
     const bool floats = storage == WrinkleStorage::half_float;
-    gl::Texture texture = texture_2d(floats ? GL_RGB16F : GL_RGB8_SNORM, map.width, map.height);
-    if (floats) {
-        upload(texture, map.width, map.height, GL_RGB, GL_FLOAT, map.values);
-        return texture;
-    }
-    std::vector<std::int8_t> bytes;
-    for (const glm::vec3& value : map.values) {
-        for (glm::length_t c = 0; c < 3; ++c) bytes.push_back(stored_derivative(value[c], 1));
-    }
-    upload(texture, map.width, map.height, GL_RGB, GL_BYTE, bytes);
-    return texture;
+    return signed_texture(floats ? GL_RGB16F : GL_RGB8_SNORM, map, 3, floats);
 }
 
 gl::Texture mask_texture(const std::vector<ScalarMap>& masks, std::size_t first) {
@@ -161,7 +166,7 @@ BloodTextures& blood_textures(CharacterState& state) {
     if (textures.pigments) return textures;
     const SkinPigments& pigments = *state.appearance.pigments;
     const std::uint32_t width = pigments.maps.skin.width, height = pigments.maps.skin.height;
-    const int levels = 1 + static_cast<int>(std::log2(std::max({width, height, 1U})));
+    const int levels = levels_of(width, height);
     textures.pigments = texture_2d(GL_RGBA8, width, height, levels);
     upload(textures.pigments, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pigment_texels(pigments.maps));
     glGenerateTextureMipmap(textures.pigments.name());

@@ -10,11 +10,17 @@
 namespace blush {
 namespace {
 
+constexpr std::array<std::string_view, 2> shown_choices = {"yes", "no"};
+constexpr std::array<Setting, 1> settings = {{{"shown", "yes: where the pose moves blood; no: never", shown_choices}}};
+
 Need need(const CharacterState& state) {
     if (!state.appearance.pigments) {
         return {.on = false,
                 .reason = "the face has no maps of melanin and hemoglobin (blush bake appearance makes them)",
                 .can_be_forced = false};
+    }
+    if (state.settings.choice("blood", "shown") == 1) {
+        return {.on = false, .reason = "blood.shown says no", .can_be_forced = false};
     }
     const bool neutral = std::ranges::all_of(state.pose.hemoglobin, [](float share) { return share == 0; });
     if (neutral && state.pose.hemoglobin_factor == 1) {
@@ -64,7 +70,7 @@ constexpr std::array<HardCase, 1> hard_cases = {{
 const Effect blood_effect = {
     .name = "blood",
     .what = "skin takes the colour of the blood in it",
-    .settings = {},
+    .settings = settings,
     .stage = Stage::light,
     .need = need,
     .declare = declare,

@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::array<std::string_view, 2> encodings = {"derivatives", "differences"};
 constexpr std::array<std::string_view, 3> storages = {"compressed", "plain", "half_float"};
-constexpr std::array<Setting, 3> settings = {{
+constexpr std::array<std::string_view, 2> shown_choices = {"yes", "no"};
+constexpr std::array<Setting, 4> settings = {{
+    {"shown", "yes: where the pose wrinkles the skin; no: never", shown_choices},
     {"encoding",
      "derivatives: partial derivatives, which add up as heights do; differences: differences of normals, which are "
      "right "
@@ -40,13 +42,16 @@ Need need(const CharacterState& state) {
                 .reason = "the face has no wrinkle maps (blush bake wrinkles makes them)",
                 .can_be_forced = false};
     }
+    if (state.settings.choice("wrinkles", "shown") == 1) {
+        return {.on = false, .reason = "wrinkles.shown says no", .can_be_forced = false};
+    }
     if (!any_wrinkle(state)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
     if (state.facts.skin_pixels_a_mm < state.settings.number("wrinkles", "least_pixels_a_mm")) {
         return {.on = false,
                 .reason = "the face is so small on the screen that a fold is narrower than a pixel",
                 .omission = Omission::bounded,
                 .bound = 2,
-                .bound_unit = "CIEDE2000, mean over the face"};
+                .bound_unit = "CIEDE2000 of any pixel"};
     }
     return {.on = true, .reason = "some zone of the face is pressed together or smoothed"};
 }

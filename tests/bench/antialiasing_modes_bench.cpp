@@ -43,7 +43,8 @@ struct Subject {
 };
 
 bool of_the_mode(std::string_view pass) {
-    constexpr std::string_view scene[] = {"deform", "turn normals", "skin", "velocities", "shade", "tone"};
+    constexpr std::string_view scene[] = {"deform",      "turn normals", "skin",    "blend blood", "velocities",
+                                          "shadow maps", "shade",        "scatter", "tone"};
     return std::ranges::find(scene, pass) == std::end(scene);
 }
 

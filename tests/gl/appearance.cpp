@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "rig/colour_difference.h"
 #include "runtime/appearance_probe.h"
 #include "tests/gl_fixture.h"
 
@@ -193,6 +195,48 @@ TEST_F(AppearanceFrames, ChangeThePictureWhenTheyAct) {
     EXPECT_NE(flushed.bytes, neither.bytes);
     // The background is nobody's skin.
     for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(both.bytes[c], neither.bytes[c]);
+}
+
+// Of a face so small that wrinkles are left out, drawing them changes no pixel by more than the bound that is stated.
+TEST_F(AppearanceFrames, LeavingWrinklesOutOfASmallFaceIsWithinItsBound) {
+    Character made = character();
+    // Folds every 8 mm of a face of 240 mm, as the baker makes them, everywhere at full strength.
+    WrinkleSet folds = waves(made.rig(), 0, 1);
+    folds.derivatives = DerivativeMap(256, 256);
+    for (std::uint32_t i = 0; i < 256 * 256; ++i)
+        folds.derivatives.values[i] = {0.2F * std::sin(0.37F * static_cast<float>(i % 256)),
+                                       0.6F * std::cos(0.74F * static_cast<float>(i / 256))};
+    for (ScalarMap& mask : folds.masks) std::ranges::fill(mask.values, 0.25F);
+    made.set_appearance({folds, std::nullopt});
+    const std::string least = std::to_string(made.state().settings.number("wrinkles", "least_pixels_a_mm"));
+    const Offscreen offscreen = make_offscreen(64, 64);
+    OrbitCamera camera = made.framing(1);
+    View view = test::framed_view(made, offscreen);
+    made.set(*made.control("surprise"), 1);
+    bool left_out = false;
+    for (int step = 0; step < 12 && !left_out; ++step) {
+        camera.distance *= 1.5F;
+        view.camera = camera.camera(1);
+        ASSERT_TRUE(made.set("wrinkles.least_pixels_a_mm", least));
+        const Image plain = test::draw(made, offscreen, view);
+        const EffectReport report = report_of(made.state().report, "wrinkles");
+        left_out = !report.on;
+        if (!left_out) continue;
+        EXPECT_EQ(report.omission, Omission::bounded);
+        ASSERT_TRUE(made.set("wrinkles.least_pixels_a_mm", "0"));
+        const Image forced = test::draw(made, offscreen, view);
+        double worst = 0;
+        for (std::size_t i = 0; i + 3 < plain.bytes.size(); i += 4) {
+            const auto colour = [&](const Image& image) {
+                const auto linear = [&](std::size_t c) { return linear_from_srgb(image.bytes[i + c] / 255.0); };
+                return glm::dvec3(linear(0), linear(1), linear(2));
+            };
+            worst = std::max(worst, ciede2000_of_srgb_linear(colour(plain), colour(forced)));
+        }
+        std::printf("worst pixel: CIEDE2000 %.2f\n", worst);
+        EXPECT_LE(worst, report.bound);
+    }
+    EXPECT_TRUE(left_out);
 }
 
 TEST_F(AppearanceFrames, BloodIsBlendedOnceForAPose) {
