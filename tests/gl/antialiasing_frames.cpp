@@ -364,12 +364,11 @@ std::vector<glm::dvec2> exact_velocities(const Face& face, const ExactView& samp
                 const glm::dvec3 share(cross(b - p, c - p) / area, cross(c - p, a - p) / area,
                                        cross(a - p, b - p) / area);
                 if (share.x < 0 || share.y < 0 || share.z < 0) continue;
-                double depth = 0, sum = 0;
+                double depth = 0;
                 glm::dvec4 clip(0), last_clip(0);
                 for (glm::length_t k = 0; k < 3; ++k) {
                     const double w = sampled.clip[v[k]].w;
                     depth += share[k] * sampled.clip[v[k]].z / w;
-                    sum += share[k] / w;
                     clip += share[k] / w * now.clip[v[k]];
                     last_clip += share[k] / w * last.clip[v[k]];
                 }
