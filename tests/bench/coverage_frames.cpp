@@ -61,6 +61,7 @@ Face CoverageFrames::face() const {
     face.uv0.assign(count, glm::vec2(0));
     face.uv1.assign(count, glm::vec2(0));
     Material glow;
+    glow.skin = false;  // light neither scatters in it nor shines through
     glow.base_color_linear = {0, 0, 0, 1};
     glow.metallic = 1;
     glow.roughness = 1;
