@@ -105,6 +105,7 @@ void draw_maps(CharacterState& state) {
 }
 
 void declare(CharacterState& state) {
+    if (state.picture > 0) return;  // the frame's first picture drew them: only the camera differs
     state.graph.pass("shadow maps", [&state](const FrameGraph&) { draw_maps(state); })
         .reads(state.resources.positions)
         .writes(state.resources.shadow_maps);
