@@ -207,7 +207,8 @@ void declare_picture(CharacterState& state, const View& view) {
     depth.format = PixelFormat::depth32f;
     state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
     state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
-    state.resources.scene_depth = state.graph.texture("scene depth", depth);
+    state.resources.scene_depth = last_picture && state.sampling.temporal ? import_kept_depth(state, depth)
+                                                                          : state.graph.texture("scene depth", depth);
     if (state.on(scattering_effect)) {
         TextureShape skin_depth = color;
         skin_depth.format = PixelFormat::r32f;

@@ -6,10 +6,12 @@ layout(binding = 1) uniform sampler2D last_image;  // they are blended in linear
 layout(binding = 2) uniform sampler2D velocities;   // speed, x, y; of this frame
 layout(binding = 3) uniform sampler2D speeds;       // filtered along with the image
 layout(binding = 4) uniform sampler2D last_speeds;  // filtered along with last_image
+layout(binding = 5) uniform sampler2D last_depth;   // of last_image
 layout(location = 0) uniform float falloff;         // K of equation 10.6
 layout(location = 1) uniform bool encoded;          // the result is to be sRGB
 layout(location = 2) uniform bool moves;            // false: every velocity and speed of this frame is zero
 layout(location = 3) uniform bool moved;            // the same of the last frame
+layout(location = 4) uniform bool rejects;          // what this frame does not see anew, moving alike
 layout(location = 0) out vec4 result;
 
 vec4 fetch(sampler2D from, ivec2 pixel) {
@@ -43,6 +45,32 @@ float last_speed(Taps t) {
     return mix(mix(s[0], s[1], t.share.x), mix(s[2], s[3], t.share.x), t.share.y);
 }
 
+// Whether what the last frame has around `last_pixel` is what this frame has around `pixel`, moving alike: then the two
+// differ by where in the pixel they were sampled, and by nothing else. Where they do not, a surface has moved away from
+// before the one seen here, or has been blended with it by the filter.
+bool seen_alike(ivec2 pixel, vec2 velocity, ivec2 last_pixel, vec2 size) {
+    // A twentieth of a pixel a frame is no motion: that far, a contour is in its place. The rest is what half floats lose.
+    float slack = 0.05 + 0.002 * length(velocity * size);
+    ivec2 most = ivec2(size) - 1;
+    float lowest = 2.0, highest = -1.0;
+    for (int i = 0; i < 9; ++i) {
+        vec4 near = texelFetch(velocities, clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), most), 0);
+        vec2 apart = abs((near.yz - velocity) * size);
+        bool alike = max(apart.x, apart.y) <= slack;
+        lowest = alike ? min(lowest, near.w) : lowest;
+        highest = alike ? max(highest, near.w) : highest;
+    }
+    // As steep as it is here, a surface may go on to the samples of the last frame.
+    float tolerance = highest - lowest + 0.002 * highest + 1e-6;
+    bool found = true;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 p = clamp(last_pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), most);
+        float before_far = 1.0 - texelFetch(last_depth, p, 0).r;
+        found = found && before_far >= lowest - tolerance && before_far <= highest + tolerance;
+    }
+    return found;
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec2 size = vec2(textureSize(image, 0));
@@ -55,6 +83,7 @@ void main() {
     // Equation 10.6. Of the root's argument the size counts: a speed that fell disoccludes as one that rose.
     float weight = 0.5 * max(0.0, 1.0 - falloff * sqrt(abs(speed - last_speed(taps))));
     if (!on_screen) weight = 0.0;
+    if (rejects && on_screen && !seen_alike(pixel, velocity, ivec2(position), size)) weight = 0.0;
     // Equation 10.7.
     vec4 color = (1.0 - weight) * fetch(image, pixel) + weight * last_color(taps);
     result = encoded ? vec4(srgb_from_linear(color.rgb), color.a) : color;

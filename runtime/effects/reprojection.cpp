@@ -11,7 +11,9 @@
 namespace blush {
 namespace {
 
-constexpr std::array<Setting, 1> settings = {{
+constexpr std::array<std::string_view, 2> rejection_choices = {"surface", "none"};
+
+constexpr std::array<Setting, 2> settings = {{
     {.name = "falloff",
      .meaning =
          "K of equation 10.6: how fast the last frame's share falls where speeds differ, for speeds in pictures a "
@@ -19,6 +21,11 @@ constexpr std::array<Setting, 1> settings = {{
      .lowest = 0,
      .highest = 1000,
      .default_number = 30},  // jimenez-2012, 10.4.4: "a value of 30 for all our examples"
+    {"rejection",
+     "surface: nothing is taken from where the last frame saw a surface that this one does not see there, moving "
+     "alike; "
+     "none: equation 10.6 alone, which leaves ghosts of what starts to move, or moves by less than a pixel",
+     rejection_choices, 0},
 }};
 
 struct Reprojection {
@@ -45,6 +52,8 @@ void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, 
     const LastFrame& last = state.own<LastFrame>();
     const KeptImage& before = last.images[1 - last.phase];
     const bool moves = state.on(velocities_effect);
+    // Forced velocities of what stands still are zero, and nothing is uncovered.
+    const bool rejects = moves && state.facts.moves && state.settings.choice("reprojection", "rejection") == 0;
     bind_output(state, graph, to);
     glUseProgram(state.own<Reprojection>().program.name());
     glBindTextureUnit(0, graph[from].handle);
@@ -55,10 +64,12 @@ void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, 
         glBindTextureUnit(3, graph[state.resources.speeds].handle);
     }
     if (before.has_speeds) glBindTextureUnit(4, before.speeds.name());
+    if (rejects) glBindTextureUnit(5, before.depth.name());
     glUniform1f(0, static_cast<float>(state.settings.number("reprojection", "falloff")));
     glUniform1i(1, state.view->output == Output::display_srgb ? 1 : 0);
     glUniform1i(2, moves ? 1 : 0);
     glUniform1i(3, before.has_speeds ? 1 : 0);
+    glUniform1i(4, rejects ? 1 : 0);
     draw_screen(state);
 }
 
