@@ -174,6 +174,23 @@ TEST_F(AntialiasingFrames, TheHdrResolveWeighsBrightSamplesLess) {
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_GT(found[k], 0) << k << " of 4 samples never seen";
 }
 
+TEST_F(AntialiasingFrames, TheResolveIsWeighedForADisplayAndPlainForRadiance) {
+    const Face face = make_face({.side = 14, .targets = 0});
+    for (const auto& [output, expected] : {std::pair(Output::display_srgb, "hdr"), {Output::linear_hdr, "average"}}) {
+        const Offscreen offscreen = make_offscreen(40, 40, output);
+        const auto drawn = [&](const char* resolve) {
+            Character character = character_in("msaa4", face);
+            set(character, "multisampling.resolve", resolve);
+            return draw(character, offscreen);
+        };
+        const Image automatic = drawn("auto"), average = drawn("average"), hdr = drawn("hdr");
+        const Image& wanted = std::string_view(expected) == "hdr" ? hdr : average;
+        EXPECT_EQ(automatic.bytes, wanted.bytes);
+        EXPECT_EQ(automatic.floats, wanted.floats);
+        EXPECT_TRUE(average.bytes != hdr.bytes || average.floats != hdr.floats);
+    }
+}
+
 TEST_F(AntialiasingFrames, SupersamplingIsTheMeanOfItsPicturesInLinearLight) {
     const Face face = make_face({.side = 14, .targets = 0});
     Character whole = character_in("supersampled", face), single = character_in("none", face);
