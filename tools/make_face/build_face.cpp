@@ -7,11 +7,12 @@
 #include "tools/make_face/hair.h"
 #include "tools/make_face/head_shape.h"
 #include "tools/make_face/mouth_parts.h"
+#include "tools/make_face/person_shape.h"
 #include "tools/make_face/textures.h"
 
 namespace blush::make_face {
 
-FaceParts build_face(std::size_t vertices) {
+FaceParts build_face(std::size_t vertices, const Person& person) {
     FaceParts face;
     Head head = make_head(vertices);
     grow_hair(head);
@@ -78,6 +79,7 @@ FaceParts build_face(std::size_t vertices) {
     add("teethLower", lower_teeth, tooth, mandible_targets(lower_teeth));
     add("gumLower", lower_gum, gum, mandible_targets(lower_gum));
     add("tongue", body, tongue, tongue_targets(body));
+    reshape(face, PersonShape(person));
     return face;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 /// The default face, put together.
 
+#include "tools/make_face/person.h"
 #include "tools/make_face/write_glb.h"
 
 namespace blush::make_face {
 
-/// `vertices`: of the head's skin, roughly; from 6,000 to 30,000. The same number gives the same face.
-FaceParts build_face(std::size_t vertices);
+/// `vertices`: of the head's skin, roughly; from 6,000 to 30,000. The same number and person give the same face.
+FaceParts build_face(std::size_t vertices, const Person& person = {});
 
 }  // namespace blush::make_face
