@@ -10,6 +10,7 @@
 #include "tools/make_face/head_shape.h"
 #include "tools/make_face/lash_cards.h"
 #include "tools/make_face/mouth_parts.h"
+#include "tools/make_face/person_shape.h"
 #include "tools/make_face/pigments.h"
 #include "tools/make_face/skin_detail.h"
 #include "tools/make_face/strands.h"
@@ -17,7 +18,7 @@
 
 namespace blush::make_face {
 
-FaceParts build_face(std::size_t vertices, const SkinLook& look, int texture_side) {
+FaceParts build_face(std::size_t vertices, const Person& person, int texture_side) {
     FaceParts face;
     Head head = make_head(vertices);
     grow_hair(head);
@@ -30,7 +31,7 @@ FaceParts build_face(std::size_t vertices, const SkinLook& look, int texture_sid
     face.materials.resize(8);
     const SkinColourTable table;
     const SurfaceTexels texels(head, texture_side), coarse_texels(head, texture_side / 2);
-    face.pigments = paint_pigments(texels, look, table);
+    face.pigments = paint_pigments(texels, person.skin, table);
     face.materials[skin] = {.name = "skin",
                             .roughness = 1,
                             .base_color_png = png(base_color(*face.pigments, table)),
@@ -38,15 +39,15 @@ FaceParts build_face(std::size_t vertices, const SkinLook& look, int texture_sid
                             .roughness_png = png(paint_roughness(coarse_texels)),
                             .occluded = true};
     face.materials[eye] = {
-        .name = "eye", .roughness = 0.1, .base_color_png = png(paint_eye(eye_texture_side, look.eyes))};
+        .name = "eye", .roughness = 0.1, .base_color_png = png(paint_eye(eye_texture_side, vec3(person.skin.eyes)))};
     face.materials[tooth] = {.name = "teeth", .base_color_linear = {0.66, 0.58, 0.45, 1}, .roughness = 0.25};
     face.materials[gum] = {.name = "gums", .roughness = 0.35, .base_color_png = png(paint_gum(128))};
     face.materials[tongue] = {.name = "tongue", .roughness = 0.4, .base_color_png = png(paint_tongue(128))};
     const auto strands = [&](const char* name, double darker, const Picture& picture) {
-        const Vec3 color = linear_srgb(look.hair) * darker;
+        const Vec3 color = linear_srgb(vec3(person.skin.hair)) * darker;
         return MaterialPart{.name = name,
                             .base_color_linear = {color.x, color.y, color.z, 1},
-                            .roughness = 0.7,
+                            .roughness = 0.8,
                             .base_color_png = png(picture),
                             .double_sided = true,
                             .blended = true};
@@ -82,6 +83,7 @@ FaceParts build_face(std::size_t vertices, const SkinLook& look, int texture_sid
     add("brows", brows.mesh, brow, carried_targets(brows.mesh, brows.anchors, head, targets));
     const HairCards strips = make_hair_cards();
     add("hair", strips.mesh, hair, carried_targets(strips.mesh, nearest_anchors(head, strips.roots), head, targets));
+    reshape(face, PersonShape(person));
     return face;
 }
 

@@ -18,7 +18,7 @@ Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
 }
 
 /// 1 over the forehead and the top of the head, 0 on its sides and at the nape.
-double on_top(const Vec3& p) { return smooth_step(62, 92, p.y - 0.15 * p.z + 0.05 * std::abs(p.x)); }
+double on_top(const Vec3& p) { return smooth_step(40, 64, p.y + 0.12 * p.z); }
 
 /// The way hair is combed at a place of the scalp.
 Vec3 combed(const Vec3& p, const Vec3& normal, const HairStyle& style) {
@@ -47,8 +47,8 @@ struct Layer {
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {420, 2.6, 1.6, true, 1.25, -2}, {420, 5.0, 2.4, true, 1.1, 0},   {420, 7.4, 3.2, false, 1.0, 3},
-        {380, 9.6, 4.0, false, 0.9, 6},  {200, 11.5, 4.8, false, 0.7, 9},
+        {330, 2.6, 1.4, true, 1.25, -2}, {330, 5.0, 2.2, true, 1.1, 0},   {330, 7.4, 3.0, false, 1.0, 2},
+        {280, 9.6, 3.8, false, 0.9, 5},  {130, 11.5, 4.6, false, 0.7, 8},
     };
     HairCards cards;
     Random random(5);
@@ -73,9 +73,9 @@ HairCards make_hair_cards(const HairStyle& style) {
             const double top = on_top(q);
             // Shorter at the hairline, where new hair grows, and toward the nape.
             const double grown = mix(0.62, 1, smooth_step(0, 16, above));
-            const double length = style.length * grown * mix(mix(13, 21, smooth_step(-50, 40, q.y)), 40, top) *
+            const double length = style.length * grown * mix(mix(17, 27, smooth_step(-50, 40, q.y)), 42, top) *
                                   mix(0.82, 1.2, length_luck);
-            const double half_width = 0.5 * layer.width * mix(9.5, 13, top) * mix(0.8, 1.2, width_luck);
+            const double half_width = 0.5 * layer.width * mix(8.5, 12, top) * mix(0.8, 1.2, width_luck);
             const double raised = style.lift * lift_luck * mix(layer.side_height, layer.top_height, top) *
                                   mix(0.45, 1, smooth_step(0, 22, above));
             const int segments = top > 0.5 ? 5 : 3;
@@ -98,8 +98,8 @@ HairCards make_hair_cards(const HairStyle& style) {
                 cards.mesh.add(p + side * half, {right, mix(area.top, area.bottom, t)});
                 // Shaded as a part of the whole head of hair, not as a flat strip: bent outward at its sides.
                 const Vec3 round = glm::normalize(normal * 0.8 + glm::normalize(p - skull_centre) * 0.4);
-                cards.mesh.normals.push_back(glm::normalize(round - side * 0.45));
-                cards.mesh.normals.push_back(glm::normalize(round + side * 0.45));
+                cards.mesh.normals.push_back(glm::normalize(round - side * 0.25));
+                cards.mesh.normals.push_back(glm::normalize(round + side * 0.25));
                 cards.roots.insert(cards.roots.end(), {root, root});
                 q = project_to_head(q + way * (length / segments));
             }

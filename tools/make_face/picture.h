@@ -1,6 +1,7 @@
 #pragma once
 /// An 8-bit image as the face maker paints it.
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -15,6 +16,7 @@ inline unsigned char to_byte(double x) {
     return static_cast<unsigned char>(std::lround(std::clamp(x, 0.0, 1.0) * 255));
 }
 
+inline Vec3 vec3(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
 /// sRGB, 0 to 1, to linear.
 inline Vec3 linear_srgb(const Vec3& c) { return {linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z)}; }
 

@@ -48,7 +48,7 @@ double mole_cover(const Vec3& p) {
 }
 
 /// Melanin at a place over that of the typical skin.
-double melanin_factor(const Vec3& p, const Vec3& half, double lip, const SkinLook& look) {
+double melanin_factor(const Vec3& p, const Vec3& half, double lip, const SkinTone& look) {
     double f = 1 + 0.10 * fractal_noise(p / 15.0 + Vec3(3, 7, 1), 3) + 0.07 * fractal_noise(p / 2.6, 2) +
                0.05 * noise(p / 0.9);
     f += 0.14 * bell(half, {0, 42, 90}, {50, 30, 34}) + 0.14 * bell(half, {0, -22, 100}, {13, 22, 20}) +
@@ -104,7 +104,7 @@ struct Pigment {
     double shadow = 1;  ///< factor on the colour below it: where no light reaches
 };
 
-Pigment pigment_at(const SurfaceTexel& texel, const SkinLook& look) {
+Pigment pigment_at(const SurfaceTexel& texel, const SkinTone& look) {
     const Vec3 p = texel.place(), half = texel.half();
     // Red lips are an epidermis without its horny layer over many vessels: a third of blood's full colour at 6 %.
     const double lip_hemoglobin = 0.040 + 2.2 * look.hemoglobin;
@@ -139,13 +139,13 @@ Pigment pigment_at(const SurfaceTexel& texel, const SkinLook& look) {
     result.shadow *= 1 - 0.72 * lip_seam(p);
     result.shadow *= 1 - 0.93 * nostril(texel);
 
-    const Vec3 dark_hair = linear_srgb(look.hair) * 0.35;
+    const Vec3 dark_hair = linear_srgb(vec3(look.hair)) * 0.35;
     const double rim = std::max(0.85 * lid_rim(p, true), 0.35 * lid_rim(p, false));
     const double brow = 0.42 * brow_cover(p);
     const double scalp = hair_paint(p);
     result.cover = std::max({rim, brow, scalp});
     if (result.cover > 0) {
-        result.over = scalp >= std::max(rim, brow) ? linear_srgb(look.hair) * hair_shade(p) : dark_hair;
+        result.over = scalp >= std::max(rim, brow) ? linear_srgb(vec3(look.hair)) * hair_shade(p) : dark_hair;
         result.skin = 1 - std::max(scalp, 0.6 * std::max(rim, brow));
     }
     return result;
@@ -157,7 +157,7 @@ float stored(double fraction, double largest) {
 
 }  // namespace
 
-AppearanceMaps paint_pigments(const SurfaceTexels& texels, const SkinLook& look, const SkinColourTable& table) {
+AppearanceMaps paint_pigments(const SurfaceTexels& texels, const SkinTone& look, const SkinColourTable& table) {
     const auto side = static_cast<std::uint32_t>(texels.side());
     AppearanceMaps maps;
     maps.melanin = ScalarMap(side, side, stored(look.melanin, largest_melanin));

@@ -37,7 +37,7 @@ void draw(Canvas& canvas, const StrandShape& s, double root_dark, double tip_lig
         const double t = std::clamp((y + 0.5 - s.first_y) / s.length, 0.0, 1.0);
         const double x = s.root_x + s.lean * t * t + s.wave * std::sin(s.wave_phase + 3.0 * t) * t;
         const double half = s.half_width * std::pow(1 - t, 0.55) + 0.12;
-        const double strength = smooth_step(1.02, 0.72, t);
+        const double strength = smooth_step(1.02, 0.72, t) * smooth_step(-0.01, 0.10, t);
         const double brightness = s.brightness * mix(root_dark, tip_light, smooth_step(0, 0.6, t));
         for (int k = static_cast<int>(std::floor(x - half - 1)); k <= static_cast<int>(std::ceil(x + half + 1)); ++k) {
             const double covered = std::clamp(half + 0.5 - std::abs(k + 0.5 - x), 0.0, 1.0) * std::min(1.0, 2 * half);
@@ -83,22 +83,23 @@ Picture paint_hair_strands(int width) {
     for (int clump = 0; clump < hair_clumps; ++clump) {
         Canvas canvas(column, width);
         const double middle = column / 2.0;
-        constexpr int strands = 72;
+        constexpr int strands = 96;
         for (int n = 0; n < strands; ++n) {
             StrandShape s;
             const double across = random.between(-1, 1);
-            s.root_x = middle + across * 0.40 * column;
-            s.length = width * random.between(0.60, 0.985) * (1 - 0.16 * square(across));
-            s.lean = -across * column * random.between(0.02, 0.20) + column * random.between(-0.10, 0.10);
-            s.wave = column * random.between(-0.035, 0.035);
+            s.root_x = middle + across * 0.43 * column;
+            s.first_y = width * random.between(0, 0.14);
+            s.length = width * random.between(0.58, 0.985) * (1 - 0.12 * square(across)) - s.first_y;
+            s.lean = -across * column * random.between(0, 0.10) + column * random.between(-0.08, 0.08);
+            s.wave = column * random.between(-0.05, 0.05);
             s.wave_phase = random.between(0, 6.28);
-            s.half_width = width / 512.0 * random.between(0.65, 1.25);
+            s.half_width = width / 512.0 * random.between(0.55, 0.95);
             // The later lie on top and catch the light.
-            s.brightness = mix(0.42, 0.98, static_cast<double>(n) / strands) * random.between(0.82, 1.1);
-            draw(canvas, s, 0.62, 1.0);
+            s.brightness = mix(0.55, 0.95, static_cast<double>(n) / strands) * random.between(0.8, 1.15);
+            draw(canvas, s, 0.86, 1.0);
         }
         store(canvas, clump * column, 0, 1, picture);
-        store(canvas, clump * column, width, 0.48, picture);
+        store(canvas, clump * column, width, 0.58, picture);
     }
     return picture;
 }
