@@ -1,20 +1,17 @@
-/// make_face: writes the default face, made by this project's own code from no one else's data.
+/// make_face: writes the default face, made by this project's own code from no one else's data. The build runs it;
+/// `blush bake face` is the same with the shipped presets.
 
 #include <cstdio>
 #include <exception>
 
-#include <CLI/CLI.hpp>
-
-#include "tools/make_face/build_face.h"
+#include "tools/make_face/face_command.h"
 
 int main(int argc, char** argv) try {
     CLI::App app{"Writes the default face as a binary glTF file: 52 ARKit targets, eyes, teeth and tongue."};
-    std::string path;
-    std::size_t vertices = 22'000;
-    app.add_option("-o,--output", path, "the .glb file to write")->required();
-    app.add_option("--vertices", vertices, "vertices of the skin, roughly")
-        ->check(CLI::Range(6'000, 30'000))
-        ->capture_default_str();
+    blush::make_face::FaceCommand command;
+    command.add_to(app);
+    std::string presets = "assets/presets";
+    app.add_option("--presets", presets, "Folder of the presets")->capture_default_str();
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -22,13 +19,7 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "make_face: %s\n", error.what());
         return 2;
     }
-    // An unwritable path is found out before the seconds of work.
-    if (const blush::Status status = blush::make_face::check_writable(path); !status) {
-        std::fprintf(stderr, "make_face: %s\n", status.error().message.c_str());
-        return 2;
-    }
-    const std::string bytes = blush::make_face::glb_bytes(blush::make_face::build_face(vertices));
-    if (const blush::Status status = blush::make_face::write_file(path, bytes); !status) {
+    if (const blush::Status status = command.run(presets); !status) {
         std::fprintf(stderr, "make_face: %s\n", status.error().message.c_str());
         return 2;
     }

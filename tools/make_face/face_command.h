@@ -1,0 +1,28 @@
+#pragma once
+/// The options that make_face and `blush bake face` share.
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/make_face/person.h"
+
+namespace blush::make_face {
+
+struct FaceCommand {
+    std::string output, preset;
+    std::vector<std::string> sets;
+    std::size_t vertices = 22'000;
+    bool list = false;
+
+    void add_to(CLI::App& command);
+    /// Writes the file, or prints the list. `preset_folder`: where named presets stand.
+    Status run(const std::filesystem::path& preset_folder) const;
+
+private:
+    Result<Person> person(const std::filesystem::path& preset_folder) const;
+};
+
+}  // namespace blush::make_face
