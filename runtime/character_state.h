@@ -70,11 +70,10 @@ struct FrameResources {
     };
     std::array<Resolved, 6> to_resolve{};
     std::size_t resolve_count = 0;
-    ResourceId
-        velocities{};      ///< rgba16f, of the frame's last picture: shaders/velocities.frag
-    ResourceId speeds{};   ///< speeds as far as they have come: filtered, averaged
-    ResourceId display{};  ///< the picture as far as it has come: display values, or radiance
-    ResourceId target{};   ///< what the picture goes to: the view's framebuffer, or a texture for averaging
+    ResourceId velocities{};  ///< rgba16f, of the frame's last picture: shaders/velocities.frag
+    ResourceId speeds{};      ///< speeds as far as they have come: filtered, averaged
+    ResourceId display{};     ///< the picture as far as it has come: display values, or radiance
+    ResourceId target{};      ///< what the picture goes to: the view's framebuffer, or a texture for averaging
 };
 
 struct Effect;

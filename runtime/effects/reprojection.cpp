@@ -63,7 +63,10 @@ void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, 
         glBindTextureUnit(2, graph[state.resources.velocities].handle);
         glBindTextureUnit(3, graph[state.resources.speeds].handle);
     }
-    if (before.has_speeds) glBindTextureUnit(4, before.speeds.name());
+    if (before.has_speeds) {
+        glBindTextureUnit(4, before.speeds.name());
+        glBindSampler(4, 0);
+    }
     if (rejects) glBindTextureUnit(5, before.depth.name());
     glUniform1f(0, static_cast<float>(state.settings.number("reprojection", "falloff")));
     glUniform1i(1, state.view->output == Output::display_srgb ? 1 : 0);
