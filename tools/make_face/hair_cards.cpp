@@ -47,7 +47,7 @@ struct Layer {
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {330, 2.6, 1.4, true, 1.25, -2}, {330, 5.0, 2.2, true, 1.1, 0},   {330, 7.4, 3.0, false, 1.0, 2},
+        {320, 2.6, 1.4, true, 1.25, -2}, {320, 5.0, 2.2, true, 1.1, 0},   {320, 7.4, 3.0, false, 1.0, 2},
         {280, 9.6, 3.8, false, 0.9, 5},  {130, 11.5, 4.6, false, 0.7, 8},
     };
     HairCards cards;
