@@ -27,7 +27,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
         std::async(std::launch::async, [&head] { return head_targets(head); });
 
     enum MaterialIndex : std::size_t { skin, eye, tooth, gum, tongue, lash, brow, hair };
-    constexpr int eye_texture_side = 1024;
+    const int eye_texture_side = texture_side * 2 / 3;
     face.materials.resize(8);
     const SkinColourTable table;
     const SurfaceTexels texels(head, texture_side), coarse_texels(head, texture_side / 2);
@@ -47,12 +47,13 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
         const Vec3 color = linear_srgb(vec3(person.skin.hair)) * darker;
         return MaterialPart{.name = name,
                             .base_color_linear = {color.x, color.y, color.z, 1},
-                            .roughness = 0.8,
+                            .roughness = 0.92,
                             .base_color_png = png(picture),
                             .double_sided = true,
                             .blended = true};
     };
     face.materials[hair] = strands("hair", 1, paint_hair_strands(512));
+    face.materials[hair].double_sided = false;  // its strips have triangles for both sides
     face.materials[brow] = strands("brows", 0.42, paint_brow_strands(128));
     face.materials[lash] = strands("lashes", 0.08, paint_lash_strands(128));
 

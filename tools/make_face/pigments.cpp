@@ -119,6 +119,11 @@ Pigment pigment_at(const SurfaceTexel& texel, const SkinTone& look) {
         result.hemoglobin = lip_hemoglobin * mix(1.0, 1.5, smooth_step(0, 0.3, depth));
         result.shadow =
             mouth ? mix(0.62, 0.035, smooth_step(0.06, 0.62, depth)) : mix(1.0, 0.5, smooth_step(0.3, 0.9, depth));
+        if (!mouth && p.y > canthal_y(half.x)) {  // the upper lid's edge: lashes root in it, and it shades itself
+            result.cover = 0.8 * smooth_step(0.45, 0.1, depth);
+            result.over = linear_srgb(vec3(look.hair)) * 0.10;
+            result.shadow *= 0.55;
+        }
         result.skin = mouth ? smooth_step(0.3, 0.05, depth) : 1;
         return result;
     }
@@ -141,7 +146,7 @@ Pigment pigment_at(const SurfaceTexel& texel, const SkinTone& look) {
 
     const Vec3 dark_hair = linear_srgb(vec3(look.hair)) * 0.35;
     const double rim = std::max(0.85 * lid_rim(p, true), 0.35 * lid_rim(p, false));
-    const double brow = 0.42 * brow_cover(p);
+    const double brow = 0.62 * brow_cover(p);
     const double scalp = hair_paint(p);
     result.cover = std::max({rim, brow, scalp});
     if (result.cover > 0) {

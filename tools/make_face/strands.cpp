@@ -116,7 +116,7 @@ Picture paint_brow_strands(int side) {
         s.length = side * random.between(0.68, 0.99) - s.first_y;
         s.lean = side * random.between(-0.10, 0.10);
         s.wave = side * random.between(-0.02, 0.02);
-        s.half_width = side / 128.0 * random.between(2.6, 3.6);
+        s.half_width = side / 128.0 * random.between(3.4, 4.6);
         s.brightness = random.between(0.7, 1.0);
         draw(canvas, s, 1.0, 1.0);
     }
