@@ -6,7 +6,7 @@
 
 namespace blush::make_face {
 
-/// `vertices`: of the head's skin, roughly; from 6,000 to 30,000. The same number and person give the same face.
+/// `vertices`: of the head's skin, roughly; from 5,000 to 1,000,000. The same number and person give the same face.
 FaceParts build_face(std::size_t vertices, const Person& person = {});
 
 }  // namespace blush::make_face

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tools/make_face/build_face.h"
+#include "tools/make_face/head_mesh.h"
 
 namespace blush::make_face {
 namespace {
@@ -46,7 +47,7 @@ void FaceCommand::add_to(CLI::App& command) {
     command.add_option("--set", sets, "A parameter and its value, such as jaw_width=+1; may be given several times")
         ->delimiter(',');
     command.add_option("--vertices", vertices, "Vertices of the skin, roughly")
-        ->check(CLI::Range(6'000, 30'000))
+        ->check(CLI::Range(least_vertices, most_vertices))
         ->capture_default_str();
     command.add_flag("--list", list, "Print presets and parameters with their ranges, and write nothing");
 }
