@@ -299,10 +299,10 @@ TEST(Texture, HasEvenDensityAndNoOverlaps) {
 }
 
 TEST(File, SameRequestSameBytes) {
-    const std::string once = glb_bytes(build_face(5'000));
+    const std::string once = glb_bytes(build_face(5'000, {}, 128));
     EXPECT_GT(once.size(), 1'000'000U);
     EXPECT_EQ(once.substr(0, 4), "glTF");
-    EXPECT_EQ(once, glb_bytes(build_face(5'000)));
+    EXPECT_EQ(once, glb_bytes(build_face(5'000, {}, 128)));
 }
 
 TEST(File, BadPathIsOneSentenceAndLeavesNothing) {

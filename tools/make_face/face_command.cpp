@@ -5,8 +5,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "tools/make_face/build_face.h"
+#include "runtime/face_appearance.h"
 #include "tools/make_face/head_mesh.h"
+#include "tools/make_face/write_maps.h"
 
 namespace blush::make_face {
 namespace {
@@ -49,6 +50,10 @@ void FaceCommand::add_to(CLI::App& command) {
     command.add_option("--vertices", vertices, "Vertices of the skin, roughly")
         ->check(CLI::Range(least_vertices, most_vertices))
         ->capture_default_str();
+    command.add_option("--texture-size", texture_side, "Texels of a side of the skin's maps")
+        ->check(CLI::Range(64, 8'192))
+        ->capture_default_str();
+    command.add_flag("--maps", maps, "Also write melanin, hemoglobin and what expressions do to it, beside the file");
     command.add_flag("--list", list, "Print presets and parameters with their ranges, and write nothing");
 }
 
@@ -81,7 +86,9 @@ Status FaceCommand::run(const fs::path& preset_folder) const {
     if (!who) return who.error();
     // An unwritable path is found out before the seconds of work.
     if (Status s = check_writable(output); !s) return s;
-    return make_face::write_file(output, glb_bytes(build_face(vertices, *who)));
+    const FaceParts face = build_face(vertices, *who, texture_side);
+    if (Status s = make_face::write_file(output, glb_bytes(face)); !s || !maps) return s;
+    return write_maps(appearance_folder(output), *face.pigments, output, preset_folder.parent_path() / "hemoglobin");
 }
 
 }  // namespace blush::make_face

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/make_face/person.h"
+#include "tools/make_face/build_face.h"
 
 namespace blush::make_face {
 
@@ -15,10 +15,12 @@ struct FaceCommand {
     std::string output, preset;
     std::vector<std::string> sets;
     std::size_t vertices = 22'000;
+    int texture_side = default_texture_side;
+    bool maps = false;
     bool list = false;
 
     void add_to(CLI::App& command);
-    /// Writes the file, or prints the list. `preset_folder`: where named presets stand.
+    /// Writes the file, or prints the list. `preset_folder`: where named presets stand, beside the hemoglobin patterns.
     Status run(const std::filesystem::path& preset_folder) const;
 
 private:

@@ -22,8 +22,6 @@ double hairline(double azimuth_degrees) {
     return std::end(knots)[-1].y;
 }
 
-/// Millimetres above the hairline.
-double above_hairline(const Vec3& p) { return p.y - hairline(std::atan2(std::abs(p.x), p.z + 5) * 180 / pi); }
 constexpr double fade_begin = -6, fade_end = 14;  // of the hairline, mm
 
 /// Coordinates along and across the strands, which run from the whorl at the crown's back.
@@ -31,7 +29,7 @@ struct Strand {
     double along, across;
 };
 Strand strand(const Vec3& p) {
-    const Vec3 whorl = glm::normalize(Vec3(0.12, 0.80, -0.62));
+    const Vec3 whorl = hair_whorl();
     const Vec3 side = glm::normalize(glm::cross(whorl, Vec3(0, 0, 1))), other = glm::cross(whorl, side);
     const Vec3 d = glm::normalize(p - Vec3(0, 20, -5));
     const double along = std::acos(std::clamp(glm::dot(d, whorl), -1.0, 1.0));
@@ -39,6 +37,10 @@ Strand strand(const Vec3& p) {
 }
 
 }  // namespace
+
+double above_hairline(const Vec3& p) { return p.y - hairline(std::atan2(std::abs(p.x), p.z + 5) * 180 / pi); }
+
+Vec3 hair_whorl() { return glm::normalize(Vec3(0.12, 0.80, -0.62)); }
 
 double hair_cover(const Vec3& p) { return smooth_step(fade_begin, fade_end, above_hairline(p)); }
 
@@ -58,7 +60,7 @@ void grow_hair(Head& head) {
         if (head.tags[v].part != Part::skin || p.x < 0 || head.image[v] < v) continue;
         const double cover = hair_cover(p);
         if (cover <= 0) continue;
-        const double length = mix(1.0, 6.0, smooth_step(-40, 95, p.y));  // cropped
+        const double length = mix(0.4, 1.2, smooth_step(-40, 95, p.y));  // strips stand on it
         const Strand s = strand({std::abs(p.x), p.y, p.z});
         const double tuft = noise({std::cos(s.across) * 7, std::sin(s.across) * 7, s.along * 2.5});
         const bool middle = p.x == 0;
@@ -75,12 +77,12 @@ double hair_relief(const Vec3& p) {
     return 0.16 * noise({a * 110, b * 110, s.along * 5}) + 0.55 * noise({a * 26, b * 26, s.along * 3.2});
 }
 
-Vec3 hair_color(const Vec3& p) {
+double hair_shade(const Vec3& p) {
     const Strand s = strand(p);
     const double a = std::cos(s.across), b = std::sin(s.across);
     const double fine = noise({a * 110, b * 110, s.along * 5}), broad = noise({a * 26, b * 26, s.along * 3.2});
-    const double light = 0.62 + 0.30 * fine + 0.22 * broad;
-    return glm::mix(Vec3(0.085, 0.052, 0.038), Vec3(0.265, 0.165, 0.110), std::clamp(light, 0.0, 1.0));
+    // Hair stands above it: the scalp's own lies in its shade.
+    return 0.34 * std::clamp(0.75 + 0.35 * fine + 0.25 * broad, 0.2, 1.4);
 }
 
 }  // namespace blush::make_face

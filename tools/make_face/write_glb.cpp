@@ -29,10 +29,12 @@ Material material_of(const MaterialPart& part, std::vector<load::PackedImage>& i
     material.metallic = 0;
     material.roughness = static_cast<float>(part.roughness);
     material.double_sided = part.double_sided;
+    material.alpha_mode = part.blended ? AlphaMode::blend : AlphaMode::opaque;
     material.normal_scale = static_cast<float>(part.normal_scale);
     material.base_color_srgb.image = add_image(part.name + "Color", part.base_color_png, images);
     material.normal.image = add_image(part.name + "Normal", part.normal_png, images);
     material.metallic_roughness.image = add_image(part.name + "Roughness", part.roughness_png, images);
+    if (part.occluded) material.occlusion.image = material.metallic_roughness.image;
     return material;
 }
 

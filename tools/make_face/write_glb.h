@@ -2,9 +2,11 @@
 /// The face as one binary glTF 2.0 file.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rig/appearance.h"
 #include "rig/result.h"
 #include "tools/make_face/mesh.h"
 
@@ -21,9 +23,11 @@ struct MaterialPart {
     std::string name;
     std::array<double, 4> base_color_linear{1, 1, 1, 1};
     double roughness = 0.5;
-    std::vector<unsigned char> base_color_png, normal_png, roughness_png;  ///< empty: none
+    std::vector<unsigned char> base_color_png{}, normal_png{}, roughness_png{};  ///< empty: none
     double normal_scale = 1;
     bool double_sided = false;
+    bool blended = false;   ///< the base colour's alpha is coverage
+    bool occluded = false;  ///< red of roughness_png is occlusion
 };
 
 struct MeshPart {
@@ -44,6 +48,7 @@ struct FaceParts {
     std::vector<MaterialPart> materials;
     std::vector<MeshPart> meshes;
     std::vector<NodePart> nodes;
+    std::optional<AppearanceMaps> pigments;  ///< what the skin's colour was made from; not in the .glb
 };
 
 /// The bytes of the .glb, in metres; the same parts give the same bytes. A delta shorter than 0.5 micrometres counts as
