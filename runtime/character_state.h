@@ -11,6 +11,7 @@
 
 #include "rig/blood_flow.h"
 #include "rig/head_and_eyes.h"
+#include "rig/occlusion.h"
 #include "rig/rig.h"
 #include "runtime/antialias/sampling.h"
 #include "runtime/device.h"
@@ -93,6 +94,7 @@ struct CharacterState {
     const BloodFlow* blood = nullptr;  ///< where the blood is, when it does not follow the pose at once
     EffectSettings settings;
     FaceAppearance appearance;
+    std::optional<OcclusionSet> occlusion;
 
     std::optional<StreamOut> stream_out;  // made right after construction: it refers to `face`
     FaceModel model;

@@ -18,12 +18,23 @@ struct EnvironmentMap {
     std::uint64_t identity = 0;
 };
 
+/// White reflects ground + (sky - ground) (1 + n.y) / 2: bands 0 and 1.
+void write_sky(glm::vec3 sky, glm::vec3 ground, shared::FrameBlock& block) {
+    const Sh9 up = sh_basis({0, 1, 0});
+    block.ambient_sh[0] = glm::vec4(0.5F * (sky + ground) / static_cast<float>(up[0]), 0);
+    block.ambient_sh[1] = glm::vec4(0.5F * (sky - ground) / static_cast<float>(up[1]), 0);
+}
+
 float finite_or(float value, float otherwise) { return std::isfinite(value) ? value : otherwise; }
 
 }  // namespace
 
-void write_environment(const CharacterState& state, shared::FrameBlock& block) {
+void write_ambient(const CharacterState& state, shared::FrameBlock& block) {
     const Lighting& lighting = *state.lighting;
+    if (lighting.environment == nullptr) {
+        write_sky(lighting.sky_radiance_linear, lighting.ground_radiance_linear, block);
+        return;
+    }
     const float factor = std::clamp(finite_or(lighting.environment_factor, 0), 0.0F, 1e4F);
     const float turn = std::remainder(finite_or(lighting.environment_turn_radians, 0), 2 * std::numbers::pi_v<float>);
     const glm::dmat3 rotation(glm::rotate(glm::dmat4(1), static_cast<double>(turn), glm::dvec3(0, 1, 0)));

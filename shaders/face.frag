@@ -8,7 +8,7 @@ in vec4 tangent_world;
 in vec2 texture_uv[5];
 in vec2 layout_uv;
 #ifdef AMBIENT_OCCLUSION
-in vec3 ambient_visibility;
+in vec4 ambient_visibility;
 #endif
 
 // Permutations: a map that the material lacks is not fetched (BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP,
@@ -156,8 +156,9 @@ void main() {
     vec3 ambient_mirrored = mix(ground_radiance_linear.rgb, sky_radiance_linear.rgb, 0.5 + 0.5 * mirrored.y);
 #endif
 #ifdef AMBIENT_OCCLUSION
-    ambient *= ambient_visibility;
-    ambient_mirrored *= min(ambient_visibility, vec3(1.0));
+    // What a vertex's own normal loses, its pixels lose, whatever their normals: the detail of maps stays.
+    ambient *= ambient_visibility.rgb;
+    ambient_mirrored *= ambient_visibility.a;
 #endif
     vec3 entering = vec3(0.0);  // radiance that white would reflect, of the light that is left for the inside
     vec3 surface = vec3(0.0);   // reflected at the surface

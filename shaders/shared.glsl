@@ -41,6 +41,9 @@
 // Storage block of the joints.
 #define BLUSH_JOINTS_BINDING 0
 
+// Storage block of the occlusion coefficients.
+#define BLUSH_OCCLUSION_BINDING 0
+
 // Vertex attributes of the deformation passes. Targets of the pass-by-pass twin follow: position, normal and tangent
 // deltas of target k at BLUSH_TARGET_ATTRIBUTE + 3 * k.
 #define BLUSH_POSITION_ATTRIBUTE 0
@@ -120,12 +123,14 @@ BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     vec4 depth_from_world;        // dot with (place, 1): distance along the view's axis, world units
     vec4 sky_radiance_linear;     // ambient from above; w unused
     vec4 ground_radiance_linear;  // ambient from below; w unused
-    vec4 ambient_sh[9];           // rgb: radiance of white under an environment, by spherical harmonics of the normal
+    vec4 ambient_sh[9];           // rgb: radiance of white under the ambient light, by spherical harmonics of the normal
     vec4 environment;             // x: factor on the environment map; y: its mip levels - 1; z: its turn about +Y
     vec4 skin;                    // x: millimetres a world unit; y: share of the albedo before the diffusion
                                   // z: roughness, w: intensity of the surface reflection
     vec4 translucency;            // x: strength; y: mm that a point is drawn in along its normal; zw unused
     ivec4 counts;                 // x: lights; yzw unused
+    ivec4 occlusion;              // x: poses of the occlusion coefficients; y: vertices of each; zw unused
+    vec4 occlusion_weights[2];    // of those poses
     Light lights[BLUSH_MOST_LIGHTS];
 };
 

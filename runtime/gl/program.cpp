@@ -86,6 +86,8 @@ const std::vector<Block>& shared_blocks() {
           {"skin", offsetof(FrameBlock, skin)},
           {"translucency", offsetof(FrameBlock, translucency)},
           {"counts", offsetof(FrameBlock, counts)},
+          {"occlusion", offsetof(FrameBlock, occlusion)},
+          {"occlusion_weights[0]", offsetof(FrameBlock, occlusion_weights)},
           {"lights[0].position_world", offsetof(FrameBlock, lights)},
           {"lights[0].radiance_linear", offsetof(FrameBlock, lights) + offsetof(Light, radiance_linear)},
           {"lights[0].cone_world", offsetof(FrameBlock, lights) + offsetof(Light, cone_world)},

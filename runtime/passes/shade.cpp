@@ -10,6 +10,7 @@
 #include "runtime/environment_map.h"
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/occlusion_gpu.h"
 #include "runtime/shadow_maps.h"
 #include "runtime/skin_tables.h"
 
@@ -29,6 +30,7 @@ std::uint32_t frame_bits(const CharacterState& state) {
     }
     if (state.on(blood_effect)) bits |= shade_blood;
     if (state.on(environment_effect)) bits |= shade_environment;
+    if (state.on(occlusion_effect)) bits |= shade_ambient_occlusion;
     return bits;
 }
 
@@ -41,7 +43,8 @@ shared::FrameBlock frame_block(const CharacterState& state) {
     block.depth_from_world = -rows[2];
     block.sky_radiance_linear = glm::vec4(state.lighting->sky_radiance_linear, 0);
     block.ground_radiance_linear = glm::vec4(state.lighting->ground_radiance_linear, 0);
-    if (state.on(environment_effect)) write_environment(state, block);
+    write_ambient(state, block);
+    if (state.on(occlusion_effect)) write_occlusion_weights(state, block);
     const auto number = [&state](const Effect& effect, std::string_view setting) {
         return static_cast<float>(state.settings.number(effect.name, setting));
     };
@@ -61,6 +64,7 @@ void bind_maps(CharacterState& state, std::uint32_t bits) {
         glBindTextureUnit(BLUSH_TRANSMITTANCE_UNIT, tables.transmittance.name());
     }
     if ((bits & shade_environment) != 0) bind_environment(state);
+    if ((bits & shade_ambient_occlusion) != 0) bind_occlusion(state);
     bind_appearance(state, (bits & shade_wrinkles) != 0, (bits & shade_blood) != 0);
     if ((bits & shade_shadows) != 0) {
         const auto& maps = state.own<ShadowMaps>();

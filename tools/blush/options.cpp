@@ -11,6 +11,7 @@
 #include "rig/skin_material.h"
 #include "runtime/face_file.h"
 #include "runtime/lighting_file.h"
+#include "runtime/occlusion_file.h"
 #include "runtime/rig_description_file.h"
 
 namespace blush::tool {
@@ -196,6 +197,8 @@ Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const Po
     if (!description) return description.error();
     Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face->path));
     if (!appearance) return appearance.error();
+    Result<std::optional<OcclusionSet>> occlusion = find_occlusion(*face);
+    if (!occlusion) return occlusion.error();
     Result<Device> device = Device::headless();
     if (!device) return device.error();
     Result<Character> character = Character::create(*device, *std::move(face), *description);
@@ -203,6 +206,7 @@ Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const Po
     auto stage = std::make_unique<Stage>(Stage{*std::move(device), *std::move(character)});
     Character& ready = stage->character;
     ready.set_appearance(*std::move(appearance));
+    ready.set_occlusion(*std::move(occlusion));
     if (Status set = pose.apply(ready.face(), ready.rig(), ready.controls()); !set) return set.error();
     if (Status set = pose.apply_settings(ready); !set) return set.error();
     return stage;
