@@ -37,6 +37,7 @@ struct SceneFacts {
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
     bool has_triangles = false;
+    bool on_screen = false;           ///< some part of the face may be on the screen; false only where none can be
     bool has_skin = false;            ///< the face has a material that is skin
     bool skin_on_screen = false;      ///< it may be seen; false only where it cannot be
     double skin_pixels_a_mm = 0;      ///< on the screen, at the nearest place where skin may be

@@ -6,6 +6,7 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
 #include "runtime/effect.h"
+#include "runtime/on_screen.h"
 #include "runtime/scene_lights.h"
 #include "runtime/shadow_maps.h"
 #include "runtime/skin_facts.h"
@@ -250,7 +251,8 @@ void declare_picture(CharacterState& state, const View& view) {
 void draw_frame(CharacterState& state, const View& view) {
     begin_frame(state, view);
     const auto largest = static_cast<std::uint32_t>(std::max(1, state.device.info().largest_sample_count));
-    state.sampling = find_sampling(state.settings, view, largest, state.facts.has_triangles);
+    state.facts.on_screen = state.facts.has_triangles && (state.facts.forced || may_be_on_screen(state, view));
+    state.sampling = find_sampling(state.settings, view, largest, state.facts.on_screen);
     find_last_frame(state, view);
     state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
     find_needs(state);

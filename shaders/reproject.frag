@@ -19,8 +19,9 @@ layout(location = 0) out vec4 result;
 // before the one seen here, or has been blended with it by the filter. asked: false saves the fetches.
 bool seen_alike(bool asked, ivec2 pixel, vec2 velocity, ivec2 last_pixel, vec2 size) {
     int count = asked ? 9 : 0;
-    // A twentieth of a pixel a frame is no motion: that far, a contour is in its place. The rest is what half floats lose.
-    float slack = 0.05 + 0.002 * length(velocity * size);
+    // A twentieth of a pixel a frame is no motion: that far, a contour is in its place. The rest, as surfaces turn, and as
+    // the eye forgives them that are fast, is a fiftieth of their speed.
+    float slack = 0.05 + 0.02 * length(velocity * size);
     ivec2 most = ivec2(size) - 1;
     float lowest = 2.0, highest = -1.0;
     for (int i = 0; i < count; ++i) {

@@ -4,6 +4,7 @@
 
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
+#include "runtime/on_screen.h"
 
 namespace blush {
 namespace {
@@ -30,10 +31,9 @@ Resolve resolve_of(const CharacterState& state) {
 
 Need need(const CharacterState& state) {
     if (state.sampling.samples == 1) {
-        return {
-            .on = false,
-            .reason = state.facts.has_triangles ? "one sample a pixel is asked for" : "the face has nothing to draw",
-            .can_be_forced = false};
+        return {.on = false,
+                .reason = state.facts.on_screen ? "one sample a pixel is asked for" : nothing_to_draw(state.facts),
+                .can_be_forced = false};
     }
     return {.on = true, .reason = "several samples a pixel are asked for"};
 }

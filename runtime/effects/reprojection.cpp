@@ -7,6 +7,7 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
+#include "runtime/on_screen.h"
 
 namespace blush {
 namespace {
@@ -39,7 +40,7 @@ Need need(const CharacterState& state) {
     const auto mode = static_cast<AntialiasingMode>(state.settings.choice("antialiasing", "mode"));
     const bool asked = mode == AntialiasingMode::smaa_t2x || mode == AntialiasingMode::smaa_4x;
     if (!asked) return off("antialiasing.mode takes nothing from the last frame");
-    if (!state.facts.has_triangles) return off("the face has nothing to draw");
+    if (!state.facts.on_screen) return off(nothing_to_draw(state.facts));
     if (!state.sampling.temporal) {
         return off("there are no velocities (velocities.source=none): every frame stands alone");
     }
