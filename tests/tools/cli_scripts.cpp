@@ -58,7 +58,7 @@ TEST_F(Cli, BadScriptsAreNamed) {
     write("endless.lua", "\nwhile true do end");
     const std::string evaluate = "evaluate face.glb -o x.ply --at 1 --script ";
     expect_refused(evaluate + "nothing.lua",
-                   "--script nothing.lua: neither a file nor shipped (there are: conversation, fear_into_anger, idle, "
+                   "--script nothing.lua: neither a file nor shipped (there are: a_minute, conversation, fear_into_anger, idle, "
                    "laughter, poke, shy_smile)");
     expect_refused(evaluate + "syntax.lua", "syntax.lua:1: ')' expected near <eof>");
     expect_refused(evaluate + "name.lua",

@@ -88,7 +88,7 @@ TEST_F(Cli, LightsComeFromFilesAndByName) {
     expect_works("render face.glb --size 24x24 --lights behind -o behind.png");
     EXPECT_NE(bytes_of("lit.png"), bytes_of("behind.png"));
     expect_refused("render face.glb --size 24x24 --lights sunny -o x.png",
-                   "--lights: there is no lighting \"sunny\" (there are: front, side, behind; or a .json file)");
+                   "--lights: there is no lighting \"sunny\" (there are: front, side, behind, orbit; or a .json file)");
     write("bad.json", R"({"lights": [{"kind": "laser"}]})");
     expect_refused("render face.glb --size 24x24 --lights bad.json -o x.png",
                    "--lights: bad.json: lights[0].kind: it is none of directional, point, spot");
