@@ -88,7 +88,7 @@ vec2 iris_offset(Eye eye, vec3 place, vec3 n, vec3 view, vec2 uv) {
 // What is left of the light behind the lips: it falls with the depth, as in a cave whose mouth is about as wide as deep.
 float mouth_visibility(vec3 place) {
     float depth_mm = max(dot(mouth_front.xyz - place, mouth_forward.xyz) * skin.x, 0.0);
-    return mix(1.0, 0.8 / (1.0 + depth_mm * depth_mm / (12.0 * 12.0)), parts.z);
+    return mix(1.0, 0.95 / (1.0 + depth_mm * depth_mm / (12.0 * 12.0)), parts.z);
 }
 #endif
 

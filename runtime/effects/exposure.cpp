@@ -125,8 +125,8 @@ constexpr std::array<HardCase, 3> hard_cases = {{
      0, [](View& view) { view.background_linear = glm::vec4(0); }},
     {"a frame of one pixel", "metered like any other", [](Face&) {}, 0,
      [](View& view) { view.width = view.height = 1; }},
-    {"a background as bright as a half float holds", "as dark as exposure.range_stops lets it become", [](Face&) {}, 0,
-     [](View& view) { view.background_linear = glm::vec4(65504); }},
+    {"a background as bright as radiance may be", "as dark as exposure.range_stops lets it become", [](Face&) {}, 0,
+     [](View& view) { view.background_linear = glm::vec4(60000); }},
 }};
 
 }  // namespace

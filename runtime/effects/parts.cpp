@@ -41,6 +41,7 @@ constexpr std::array<Setting, 6> settings = {{
 struct Parts {
     bool known = false;
     EyeSockets sockets;
+    bool cornea_of_its_own = false;  // before an iris that lies deep already
     std::size_t mouth_node = 0;
     std::optional<glm::vec3> mouth_front;  // of the foremost tooth, mesh units
 };
@@ -51,6 +52,8 @@ Parts& parts_of(CharacterState& state) {
     own.known = true;
     const Face& face = state.face;
     own.sockets = find_eye_sockets(face, state.material_kind);
+    own.cornea_of_its_own = std::ranges::any_of(
+        face.materials, [](const Material& material) { return material.name.find("ornea") != std::string::npos; });
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
         if (face.nodes[n].mesh < 0) continue;
         const Mesh& mesh = face.meshes[static_cast<std::size_t>(face.nodes[n].mesh)];
@@ -122,7 +125,8 @@ void write_parts(CharacterState& state, shared::FrameBlock& block) {
     const auto number = [&state](std::string_view setting) {
         return static_cast<float>(state.settings.number(parts_effect.name, setting));
     };
-    block.parts = {number("lid_shade"), number("iris_depth"), number("mouth_shade"), number("tear_roughness")};
+    block.parts = {number("lid_shade"), own.cornea_of_its_own ? 0 : number("iris_depth"), number("mouth_shade"),
+                   number("tear_roughness")};
     if (own.mouth_front) {
         const glm::mat4& world = state.world_from_node[own.mouth_node];
         const glm::vec3 forward(world[2]);

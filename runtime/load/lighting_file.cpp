@@ -115,7 +115,7 @@ Result<Lighting> named_lighting(std::string_view name) {
     } else if (name == "orbit") {
         constexpr float minute_seconds = 60;
         // Ears need a light behind them that is several times as bright as the one in front.
-        lighting.lights = {from({-0.3F, 0.3F, 1}, {2.6F, 2.5F, 2.35F}), from({0.25F, 0.35F, 1}, {0.55F, 0.56F, 0.6F})};
+        lighting.lights = {from({-0.3F, 0.3F, 1}, {2.9F, 2.8F, 2.65F}), from({0.25F, 0.35F, 1}, {0.7F, 0.7F, 0.74F})};
         lighting.lights[0].orbit_seconds = minute_seconds;
         lighting.lights[1].casts_shadow = false;
         lighting.sky_radiance_linear = {0.16F, 0.17F, 0.19F};

@@ -11,7 +11,7 @@ namespace blush::tool {
 namespace {
 
 constexpr float margin = 0.05F;        // of the picture's width on either side, and of its height below
-constexpr float lines_a_picture = 20;  // a height of text that is read at a glance and hides no chin
+constexpr float lines_a_picture = 22;  // a height of text that is read at a glance and hides no chin
 
 /// Calls visit(glyph, x of its origin) for every glyph of a line that begins at x.
 template <class Visit>
