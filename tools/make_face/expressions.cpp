@@ -81,13 +81,14 @@ public:
                              {{11, -69, 92}, {10, 9, 14}, {0, 1.4, 0.2}},
                              {{17, -86, 84}, {12, 9, 14}, {0, -0.4, 1.0}},
                              {{0, -94, 88}, {14, 9, 14}, {0, 1.2, 0.9}}};
-        const Pulls dimple = {{mouth_corner, {9.5, 10, 13}, {1.8, 3.4, -5.6}},
-                              {{14, -68, 90}, {9, 10, 12}, {0.9, 0.5, -0.6}},
-                              {{36, -67, 70}, {9, 12, 14}, {-2.2, 1.8, 0}},
-                              {{22, -51, 84}, {7, 7, 10}, {0.9, -0.8, 1.5}},
-                              {{15, -91, 84}, {15, 11, 15}, {1.2, 2.2, -0.6}}};
-        const Pulls stretch = {{mouth_corner, {13, 13, 18}, {6.6, -1.4, -6.8}},
-                               {{34, -90, 60}, {18, 14, 20}, {1.2, 0.9, -0.3}}};
+        const Pulls dimple = {{mouth_corner, {9.5, 10, 13}, {1.8, 2.8, -5.4}},
+                              {{36, -69, 70}, {9, 11, 14}, {-2.4, 1.6, 0}},
+                              {{44, -47, 61}, {11, 12, 16}, {1.9, -0.2, 4.0}},
+                              {{23, -51, 83}, {7, 7, 10}, {0.9, -0.8, 1.8}},
+                              {{20, -86, 82}, {14, 11, 15}, {1.0, 3.2, 0.8}}};
+        const Pulls stretch = {{mouth_corner, {12, 12, 17}, {5.6, -1.2, -6.4}},
+                               {{46, -86, 34}, {18, 24, 34}, {2.2, 0.3, 0.5}},
+                               {{52, -122, -16}, {18, 24, 26}, {1.4, 0.2, 0.1}}};
         const Pulls upper_up = {{{11, -63, 94}, {12, 9, 14}, {0.6, 4.6, 0.4}, Pull::upper},
                                 {{14, -45, 92}, {9, 8, 12}, {0.8, 2.0, 0.5}},
                                 {{23, -50, 83}, {9, 10, 12}, {1.2, 5.0, -1.4}},
@@ -248,7 +249,7 @@ private:
     /// With jawOpen at 1 this brings the lips' edges together again: each goes its share of the gap that the jaw
     /// opened.
     Vec3 mouth_closing(Index v) const {
-        constexpr double upper_part = 0.3;
+        constexpr double upper_part = 0.12;
         const VertexTag& tag = head_.tags[v];
         if (tag.part == Part::ear) return Vec3(0);
         const Vec3& p = rest(tag.part == Part::mouth_lining ? tag.edge : v);
@@ -269,7 +270,7 @@ private:
         const double hold = tag.part == Part::mouth_lining ? smooth_step(0.9, 0.2, tag.depth) : 1;
         const double front = smooth_step(50, 72, p.z) * hold;
         if (lip > 0) return gap * (upper_part * square(std::max(0.0, 1 - off / 24)) * front);
-        if (lip < 0) return -gap * ((1 - upper_part) * square(std::max(0.0, 1 + off / 34)) * front);
+        if (lip < 0) return -gap * ((1 - upper_part) * std::pow(std::max(0.0, 1 + off / 44), 1.4) * front);
         return Vec3(0);
     }
 
