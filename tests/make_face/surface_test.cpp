@@ -130,18 +130,20 @@ TEST(Texels, AreTheSameFromOneThreadAsFromTwo) {
 }
 
 TEST(Texels, ColoursMeetAtTheSeamBehindTheHead) {
-    // The left and the right border of the layout are one line of the head: with its middle row's hair and nape, what
-    // is painted on both sides must be nearly one colour, since it is a function of the place.
+    // The vertices of the seam stand in the layout twice. What is painted at both places must be nearly one colour,
+    // since it is a function of the place.
     const Picture color = base_color(paint_pigments(texels(), {}, table()), table());
     double sum = 0;
     int count = 0;
-    for (int y = 0; y < side; ++y) {
-        const SurfaceTexel &left = texels().at(0, y), &right = texels().at(side - 1, y);
-        if (!left.covered || !right.covered || glm::distance(left.p, right.p) > 4) continue;
-        for (int c = 0; c < 3; ++c) {
-            const auto k = static_cast<std::size_t>(c);
-            sum += std::abs(color.bytes[3 * (static_cast<std::size_t>(y) * side) + k] -
-                            color.bytes[3 * (static_cast<std::size_t>(y) * side + side - 1) + k]);
+    for (Index v = 0; v < head().weld.size(); ++v) {
+        const Index w = head().weld[v];
+        if (v == w || head().tags[v].part != Part::skin || head().mesh.positions[v].z > 0) continue;
+        const auto texel = [&](Index vertex) {
+            const Vec2 at = head().mesh.uv[vertex] * static_cast<double>(side);
+            return static_cast<std::size_t>(at.y) * side + static_cast<std::size_t>(at.x);
+        };
+        for (std::size_t c = 0; c < 3; ++c) {
+            sum += std::abs(color.bytes[3 * texel(v) + c] - color.bytes[3 * texel(w) + c]);
             ++count;
         }
     }

@@ -67,27 +67,33 @@ public:
     std::vector<ShapeTarget> all() {
         // Zygomaticus major draws the corner up, out and back around the teeth; the narrow bells keep the middle of the
         // lips level, so that the mouth bends as a bow and not as a V.
-        const Pulls smile = {{mouth_corner, {13.5, 13, 20}, {8.5, 8.5, -6.5}},
-                             {{11, -69, 92}, {9, 12, 16}, {2.2, -0.8, -1.6}},
-                             {{11, -62, 93}, {11, 4.5, 12}, {0, -1.4, -1.2}, Pull::upper},
-                             {{11, -79, 90}, {11, 5.5, 12}, {0, 0.6, 0.6}, Pull::lower},
+        const Pulls smile = {{mouth_corner, {13, 13, 20}, {7.4, 9.0, -6.8}},
+                             {{11, -69, 92}, {9, 12, 16}, {1.6, -0.2, -1.4}},
+                             {{11, -62, 93}, {13, 4.5, 12}, {0, -1.9, -1.6}, Pull::upper},
+                             {{11, -79, 90}, {13, 5.5, 12}, {0, 2.2, -0.4}, Pull::lower},
                              {{36, -38, 66}, {15, 12, 20}, {1.6, 6.0, 5.0}},
-                             {{38, -54, 64}, {12, 12, 18}, {2.6, 4.0, 1.0}},
+                             {{38, -54, 64}, {12, 12, 18}, {2.2, 4.6, 0.2}},
                              {{12, -41, 95}, {5, 6, 10}, {1.3, 0.8, -0.4}},
-                             {{0, -92, 90}, {16, 14, 16}, {0, 1.0, -0.8}},
-                             {{31, -17, 74}, {15, 6, 12}, {0, 2.2, 1.0}}};
-        const Pulls frown = {{mouth_corner, {13, 12, 18}, {0.5, -9.5, -1.5}},
-                             {{11, -69, 92}, {10, 9, 14}, {0, 1.6, 0.6}},
-                             {{17, -86, 84}, {12, 9, 14}, {0, -2.0, 1.6}},
-                             {{0, -94, 88}, {14, 9, 14}, {0, 2.4, 1.6}}};
-        const Pulls dimple = {{mouth_corner, {11, 11, 15}, {3.2, 3.4, -5.0}},
-                              {{38, -64, 68}, {10, 13, 14}, {-0.5, 1.6, 2.2}},
-                              {{12, -95, 88}, {16, 14, 16}, {0.8, 1.6, 0}}};
-        const Pulls stretch = {{mouth_corner, {15, 13, 18}, {8.0, -1.0, -6.0}},
-                               {{30, -92, 66}, {15, 14, 18}, {2, 1.0, -0.6}}};
-        const Pulls upper_up = {{{10, -63, 94}, {11, 9, 14}, {0.6, 5.4, 0.8}, Pull::upper},
+                             {{0, -92, 90}, {16, 14, 16}, {0, 1.4, -0.2}},
+                             {{26, -96, 70}, {17, 14, 20}, {0.4, 2.8, 0.2}},
+                             {{31, -17, 74}, {15, 6, 12}, {0, 1.8, 0.8}}};
+        const Pulls frown = {{mouth_corner, {13, 12, 18}, {1.2, -6.0, -1.6}},
+                             {{11, -69, 92}, {10, 9, 14}, {0, 1.4, 0.2}},
+                             {{17, -86, 84}, {12, 9, 14}, {0, -0.4, 1.0}},
+                             {{0, -94, 88}, {14, 9, 14}, {0, 1.2, 0.9}}};
+        const Pulls dimple = {{mouth_corner, {9.5, 10, 13}, {1.8, 2.8, -5.4}},
+                              {{36, -69, 70}, {9, 11, 14}, {-2.4, 1.6, 0}},
+                              {{44, -47, 61}, {11, 12, 16}, {1.9, -0.2, 4.0}},
+                              {{23, -51, 83}, {7, 7, 10}, {0.9, -0.8, 1.8}},
+                              {{20, -86, 82}, {14, 11, 15}, {1.0, 3.2, 0.8}}};
+        const Pulls stretch = {{mouth_corner, {12, 12, 17}, {5.6, -1.2, -6.4}},
+                               {{46, -86, 34}, {18, 24, 34}, {2.2, 0.3, 0.5}},
+                               {{52, -122, -16}, {18, 24, 26}, {1.4, 0.2, 0.1}}};
+        const Pulls upper_up = {{{11, -63, 94}, {12, 9, 14}, {0.6, 4.6, 0.4}, Pull::upper},
                                 {{14, -45, 92}, {9, 8, 12}, {0.8, 2.0, 0.5}},
-                                {{24, -48, 80}, {8, 10, 12}, {1.2, 2.4, 1.2}}};
+                                {{23, -50, 83}, {9, 10, 12}, {1.2, 5.0, -1.4}},
+                                {{30, -66, 78}, {9, 9, 13}, {-0.2, 2.8, 0.8}},
+                                {{26, -28, 80}, {14, 12, 16}, {0.3, 1.3, 0.6}}};
         const Pulls lower_down = {{{11, -74, 92}, {11, 9, 14}, {0.9, -5.2, -1.4}, Pull::lower},
                                   {{10, -90, 88}, {14, 9, 14}, {0.8, -3.0, -2.0}}};
         const Pulls sneer = {{{10, -28, 94}, {8, 11, 14}, {0.2, 4.4, 1.0}},
@@ -110,8 +116,10 @@ public:
                                  {{36, 20, 76}, {16, 8.5, 18}, {-3.6, -3.6, 2.4}},
                                  {{28, 44, 78}, {22, 15, 24}, {-0.9, -1.8, 0.8}},
                                  {{54, 24, 58}, {13, 14, 18}, {-1.2, -0.4, 1.8}}};
-        const Pulls brow_inner_up = {{{10, 20, 90}, {12.5, 10, 16}, {0.4, 7.4, 0.6}},
-                                     {{9, 42, 88}, {20, 14, 18}, {0, 1.4, 0.8}}};
+        const Pulls brow_inner_up = {{{10, 20, 90}, {13, 9.5, 16}, {0.4, 6.4, 0.4}},
+                                     {{28, 23, 84}, {10, 8, 14}, {0.2, 1.6, 0}},
+                                     {{0, 3, 90}, {11, 8, 14}, {0, 1.8, 0.1}},
+                                     {{0, 46, 90}, {24, 10, 18}, {0, -1.8, 0.8}}};
         const Pulls brow_outer_up = {{{36, 22, 72}, {16, 11, 20}, {0.6, 9.0, -0.4}},
                                      {{36, 42, 72}, {18, 14, 20}, {0, 3.0, 0.2}},
                                      {{36, 11, 78}, {14, 5, 12}, {0, 1.8, 0}}};
@@ -130,20 +138,22 @@ public:
                               {{13, -76, 91}, {11, 9, 14}, {-0.8, -4.8, 2.8}, Pull::lower},
                               {{0, -77, 92}, {9, 8, 14}, {0, -3.8, 1.6}, Pull::lower},
                               {{0, -95, 87}, {15, 11, 15}, {0, -1.6, -1.2}}};
-        const Pulls roll_upper = {{{0, -60, 95}, {21, 5, 14}, {0, -3.2, -1.4}, Pull::upper},
-                                  {{0, -65, 94}, {21, 6, 14}, {0, 0, -3.2}, Pull::upper}};
-        const Pulls roll_lower = {{{0, -79, 92}, {21, 6, 14}, {0, 5.0, -1.4}, Pull::lower},
-                                  {{0, -73, 93}, {21, 6.5, 14}, {0, 0.6, -3.4}, Pull::lower},
-                                  {{0, -97, 87}, {16, 10, 15}, {0, 1.2, 1.8}}};
+        const Pulls roll_upper = {{{0, -57, 95}, {24, 6, 14}, {0, -3.4, -0.8}, Pull::upper},
+                                  {{0, -65, 94}, {22, 6, 14}, {0, -0.6, -5.0}, Pull::upper}};
+        const Pulls roll_lower = {{{0, -80, 92}, {21, 6.5, 14}, {0, 6.0, 0.6}, Pull::lower},
+                                  {{0, -73, 93}, {21, 6.5, 14}, {0, 1.6, -5.0}, Pull::lower},
+                                  {{0, -97, 87}, {16, 10, 15}, {0, 1.4, 1.6}}};
         const Pulls shrug_upper = {{{0, -60, 95}, {17, 7, 14}, {0, 1.8, 1.8}, Pull::upper},
                                    {{0, -68, 94}, {19, 11, 14}, {0, 2.8, 0.6}}};
-        const Pulls shrug_lower = {{{0, -78, 92}, {18, 8, 14}, {0, 0.8, 3.2}, Pull::lower},
-                                   {{0, -94, 88}, {18, 13, 16}, {0, 5.0, 1.8}},
-                                   {{0, -69, 94}, {21, 11, 14}, {0, 2.6, 0.8}}};
+        const Pulls shrug_lower = {{{0, -79, 92}, {19, 9, 14}, {0, 2.6, 3.6}, Pull::lower},
+                                   {{0, -96, 88}, {20, 14, 17}, {0, 8.0, 2.4}},
+                                   {{0, -70, 94}, {21, 8, 14}, {0, 2.2, 1.4}, Pull::lower},
+                                   {{0, -66, 94}, {20, 7, 14}, {0, 1.4, 0.8}, Pull::upper}};
         const Pulls mouth_left = {
-            {{8, -68, 90}, {26, 17, 22}, {9.0, 0.8, -2.0}},   {{27, -66, 82}, {14, 14, 18}, {1.0, 3.2, -2.6}},
-            {{36, -46, 68}, {16, 15, 20}, {1.0, 2.4, 0.6}},   {{-28, -69, 78}, {15, 15, 20}, {5.0, -0.4, 5.0}},
-            {{-42, -64, 60}, {15, 17, 20}, {3.0, -0.4, 3.6}}, {{10, -92, 86}, {18, 12, 16}, {2.4, 0.6, -0.6}}};
+            {{1, -69, 91}, {20, 16, 20}, {11.6, 0.4, -2.2}},  {{27, -66, 82}, {12, 13, 17}, {1.0, 3.4, -2.4}},
+            {{36, -46, 68}, {16, 15, 20}, {1.0, 2.4, 0.6}},   {{-27, -69, 79}, {13, 14, 18}, {7.4, -0.8, 6.6}},
+            {{-42, -64, 60}, {14, 16, 20}, {3.4, -0.8, 4.4}}, {{3, -95, 86}, {18, 12, 16}, {3.0, 0.6, -0.2}},
+            {{0, -38, 108}, {10, 8, 12}, {1.4, 0.3, 0}}};
 
         add_sides("browDown", [&](Index v) { return pulled(v, brow_down); });
         add_whole("browInnerUp", [&](Index v) { return pulled(v, both_sides(brow_inner_up)); });
@@ -151,10 +161,10 @@ public:
         add_whole("cheekPuff", [&](Index v) { return pulled(v, both_sides(cheek_puff)); });
         add_sides("cheekSquint", [&](Index v) { return pulled(v, cheek_raise); });
         add_sides("eyeBlink", [&](Index v) { return lids_.move(v, {.close = 1}); });
-        add_sides("eyeLookDown", [&](Index v) { return lids_.move(v, {.upper_degrees = -13, .lower_degrees = -6}); });
-        add_sides("eyeLookIn", [&](Index v) { return lids_.move(v, {.sideways_mm = -0.7}); });
-        add_sides("eyeLookOut", [&](Index v) { return lids_.move(v, {.sideways_mm = 0.7}); });
-        add_sides("eyeLookUp", [&](Index v) { return lids_.move(v, {.upper_degrees = 9, .lower_degrees = 3.5}); });
+        add_sides("eyeLookDown", [&](Index v) { return lids_.move(v, {.upper_degrees = -22, .lower_degrees = -6}); });
+        add_sides("eyeLookIn", [&](Index v) { return lids_.move(v, {.yaw_degrees = -7}); });
+        add_sides("eyeLookOut", [&](Index v) { return lids_.move(v, {.yaw_degrees = 7}); });
+        add_sides("eyeLookUp", [&](Index v) { return lids_.move(v, {.upper_degrees = 12, .lower_degrees = 4.5}); });
         add_sides("eyeSquint", [&](Index v) {
             return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12, .sideways_mm = -1.0}) +
                    pulled(v, cheek_raise * 0.35);
@@ -213,7 +223,8 @@ private:
     /// The nasolabial fold: a crease from the wing of the nose past the mouth's corner, and the cheek that bulges over
     /// it, along the skin's normal.
     Vec3 folded(Index v, double strength) const {
-        constexpr double groove_mm = 2.0, groove_width = 2.8, bulge_mm = 3.0, bulge_width = 8;
+        // Deep and narrow beside the wing of the nose, shallow and wide beside the mouth.
+        constexpr double bulge_mm = 3.0, bulge_width = 8;
         constexpr Vec2 line[] = {{14.5, -33}, {18, -42}, {23, -52}, {29, -62}, {32.5, -73}};
         if (head_.tags[v].part != Part::skin || rest(v).x < 0 || rest(v).z < 35) return Vec3(0);
         const Vec2 p(rest(v).x, rest(v).y);
@@ -229,6 +240,7 @@ private:
         }
         const double fade = smooth_step(0, 0.15, along) * smooth_step(1, 0.65, along);
         const double toward_cheek = side > 0 ? nearest : -nearest;
+        const double groove_mm = mix(2.6, 1.3, along), groove_width = mix(2.0, 4.4, along);
         const double height =
             bulge_mm * bell(toward_cheek - bulge_width, bulge_width) - groove_mm * bell(toward_cheek, groove_width);
         return head_.mesh.normals[v] * (strength * fade * height);
@@ -237,7 +249,7 @@ private:
     /// With jawOpen at 1 this brings the lips' edges together again: each goes its share of the gap that the jaw
     /// opened.
     Vec3 mouth_closing(Index v) const {
-        constexpr double upper_part = 0.3;
+        constexpr double upper_part = 0.12;
         const VertexTag& tag = head_.tags[v];
         if (tag.part == Part::ear) return Vec3(0);
         const Vec3& p = rest(tag.part == Part::mouth_lining ? tag.edge : v);
@@ -258,7 +270,7 @@ private:
         const double hold = tag.part == Part::mouth_lining ? smooth_step(0.9, 0.2, tag.depth) : 1;
         const double front = smooth_step(50, 72, p.z) * hold;
         if (lip > 0) return gap * (upper_part * square(std::max(0.0, 1 - off / 24)) * front);
-        if (lip < 0) return -gap * ((1 - upper_part) * square(std::max(0.0, 1 + off / 34)) * front);
+        if (lip < 0) return -gap * ((1 - upper_part) * std::pow(std::max(0.0, 1 + off / 44), 1.4) * front);
         return Vec3(0);
     }
 

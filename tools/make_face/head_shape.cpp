@@ -51,7 +51,7 @@ double neck_and_shoulders(const Vec3& p, double d) {
     chest = join(chest, clavicle, 9);
     n = join(n, chest, 26);
     n = join(n, cone(p, {50, -48, -22}, {34, -120, -8}, 8, 8), 14);  // sternocleidomastoid
-    n = join(n, cone(p, {34, -120, -8}, {12, -196, 22}, 8, 3), 18);
+    n = join(n, cone(p, {34, -120, -8}, {13, -198, 15}, 8, 4), 22);
     n = carve(n, ellipsoid(p, {0, -196, 39}, {9, 10, 12}), 10);   // sternal notch
     n = carve(n, ellipsoid(p, {52, -186, 22}, {26, 8, 18}), 16);  // over the clavicle
     return join(d, n, 20);
@@ -75,9 +75,9 @@ double lids(const Vec3& p, double d) {
     d = join(d, glm::length(p - landmark::eye_centre) - radius, softness);
     d = join(d, glm::length(p - Vec3(17, -3, 75)) - 4, 5);  // inner canthus
     // The crease that the upper lid folds at, some 8 mm over its edge.
-    const double crease =
-        join(cone(p, {20, 4.5, 80}, {31, 9.0, 83.6}, 0.5, 0.9), cone(p, {31, 9.0, 83.6}, {46, 4.0, 75}, 0.9, 0.5), 3);
-    d = carve(d, crease, 3);
+    const double crease = join(cone(p, {20.5, 3.6, 78.2}, {31, 8.4, 82.3}, 0.5, 1.1),
+                               cone(p, {31, 8.4, 82.3}, {47, 3.2, 75.6}, 1.1, 0.6), 3);
+    d = carve(d, crease, 1.8);
     return d;
 }
 
@@ -85,8 +85,9 @@ double nose(const Vec3& p, double d) {
     double n = cone(p, {0, 6, 85}, {0, -33, 101}, 4.6, 5.4);               // bridge
     n = join(n, cone(p, {2.5, -2, 79}, {7.5, -35, 90.5}, 6, 6.6), 9);      // its sides
     n = join(n, ellipsoid(p, {0, -36, 102.5}, {6.6, 7.2, 8.2}), 7);        // tip
+    n = join(n, ellipsoid(p, {0, -37, 87}, {8, 9, 13}), 4);                // no void between nose and face
     n = join(n, ellipsoid(p, {3.4, -37, 105}, {4.2, 4.8, 5.0}), 4);        // its two domes
-    n = join(n, ellipsoid(p, {11.2, -40.8, 95}, {4.6, 5.8, 7.6}), 4.5);    // wing
+    n = join(n, ellipsoid(p, {11.4, -41.2, 94.2}, {5.0, 6.2, 7.8}), 4.5);  // wing
     n = join(n, cone(p, {0, -42, 105.5}, {0, -47.5, 96}, 2.6, 3.0), 3.5);  // columella
     d = join(d, n, 5.5);
     d = carve(d, cone(p, {16.2, -36, 90}, {17.2, -45, 88.5}, 0.7, 1.0), 3);  // groove behind the wing
@@ -95,15 +96,15 @@ double nose(const Vec3& p, double d) {
 
 double mouth(const Vec3& p, double d) {
     // Vermilion of the upper lip: highest at the two peaks of the cupid's bow, 5 mm off the middle.
-    double lips = join(cone(p, {0, -65.8, 92.6}, {5.5, -64.8, 92.2}, 3.3, 3.6),
-                       cone(p, {5.5, -64.8, 92.2}, {25, -68.4, 80.5}, 3.6, 1.4), 2);
-    const double lower = join(cone(p, {0, -72.9, 91.0}, {9, -72.5, 89.4}, 4.9, 4.6),
-                              cone(p, {9, -72.5, 89.4}, {25, -69.4, 80.0}, 4.5, 1.2), 5);
+    double lips = join(cone(p, {0, -66.0, 92.6}, {5.5, -65.2, 92.2}, 3.0, 3.2),
+                       cone(p, {5.5, -65.2, 92.2}, {25, -68.6, 80.2}, 3.2, 1.0), 2);
+    const double lower = join(cone(p, {0, -72.6, 91.0}, {9, -72.2, 89.4}, 4.5, 4.2),
+                              cone(p, {9, -72.2, 89.4}, {25, -69.3, 79.8}, 4.1, 0.9), 5);
     lips = join(lips, lower, 0.9);
     d = join(d, lips, 2.4);
-    d = carve(d, cone(p, {0, -49, 100.6}, {0, -61, 99.2}, 2.3, 2.9), 3.2);  // philtrum
-    d = carve(d, ellipsoid(p, {0, -84.5, 97}, {18, 4.6, 7.5}), 9);          // mentolabial fold
-    d = carve(d, glm::length(p - Vec3(27.5, -69, 85)) - 2.5, 5);            // corner
+    d = carve(d, cone(p, {0, -50, 99.4}, {0, -61, 98.4}, 2.2, 2.9), 2.6);  // philtrum
+    d = carve(d, ellipsoid(p, {0, -84.5, 97}, {18, 4.6, 7.5}), 9);         // mentolabial fold
+    d = carve(d, glm::length(p - Vec3(27.5, -69, 85)) - 2.5, 5);           // corner
     return d;
 }
 
@@ -143,7 +144,7 @@ Vec3 leave_head(const Vec3& origin, const Vec3& direction) {
 }
 
 Vec3 sink_nostril(const Vec3& p) {
-    constexpr Vec3 centre{5.9, -46.8, 98.3}, widths{3.3, 4.5, 4.6}, inward{1.2, 8.0, -4.5};
+    constexpr Vec3 centre{6.2, -46.8, 97.6}, widths{2.9, 4.0, 4.3}, inward{1.2, 8.0, -3.0};
     const double reach = glm::length((Vec3(std::abs(p.x), p.y, p.z) - centre) / widths);
     const Vec3 sunk = inward * smooth_step(1.15, 0.35, reach);
     return p + Vec3(p.x < 0 ? -sunk.x : sunk.x, sunk.y, sunk.z);

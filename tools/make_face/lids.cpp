@@ -9,7 +9,7 @@ namespace {
 using namespace landmark;
 
 constexpr double upper_part = 0.8;                                      // of the way that a blink closes
-constexpr double upper_reach = radians(32), lower_reach = radians(34);  // how far the skin follows beyond the edges
+constexpr double upper_reach = radians(44), lower_reach = radians(38);  // how far the skin follows beyond the edges
 constexpr double clearance = 0.2;                                       // between lid and eyeball, mm
 
 double angle_of(const Vec3& p) { return std::atan2(p.y - eye_centre.y, p.z - eye_centre.z); }
@@ -19,6 +19,13 @@ Vec3 turned(const Vec3& p, double angle) {
     const Vec3 arm = p - eye_centre;
     return eye_centre + Vec3(arm.x, arm.y * std::cos(angle) + arm.z * std::sin(angle),
                              arm.z * std::cos(angle) - arm.y * std::sin(angle));
+}
+
+/// The same about the vertical axis, to the face's left when positive.
+Vec3 turned_about_vertical(const Vec3& p, double angle) {
+    const Vec3 arm = p - eye_centre;
+    return eye_centre + Vec3(arm.x * std::cos(angle) + arm.z * std::sin(angle), arm.y,
+                             arm.z * std::cos(angle) - arm.x * std::sin(angle));
 }
 
 /// How far q lies inside the eye about `centre` that looks forward, widened by the clearance; negative outside.
@@ -62,8 +69,12 @@ Vec3 Lids::move(Index v, const LidMove& lid_move) const {
                           smooth_step(2.1 * eye_radius, 1.3 * eye_radius, glm::length(p - eye_centre));
     const double turn = upper ? -lid_move.close * upper_part * gape + radians(lid_move.upper_degrees) * middle
                               : lid_move.close * (1 - upper_part) * gape + radians(lid_move.lower_degrees) * middle;
-    if (tag.lid == 0) return Vec3(0);
-    return turned(p, turn * follow) - p + Vec3(lid_move.sideways_mm * middle * follow, 0, 0);
+    // The ball drags the skin that lies on it along, corners and all.
+    const double drag =
+        radians(lid_move.yaw_degrees) * smooth_step(2.0 * eye_radius, 1.1 * eye_radius, glm::length(edge - eye_centre));
+    const Vec3 dragged = drag == 0 ? p : turned_about_vertical(p, drag);
+    if (tag.lid == 0) return dragged - p;
+    return turned(dragged, turn * follow) - p + Vec3(lid_move.sideways_mm * middle * follow, 0, 0);
 }
 
 void Lids::keep_off_eyes(std::vector<Vec3>& deltas) const {

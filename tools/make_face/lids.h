@@ -10,7 +10,8 @@ struct LidMove {
     double close = 0;          ///< 1: the edges meet, most of the way done by the upper lid
     double upper_degrees = 0;  ///< further turn of the upper lid, positive up
     double lower_degrees = 0;  ///< of the lower lid, positive up
-    double sideways_mm = 0;    ///< what the cornea's bulge pushes along, positive to the face's left
+    double sideways_mm = 0;    ///< of the edges, positive to the face's left
+    double yaw_degrees = 0;    ///< turn about the vertical axis with the ball that drags the lids, positive to the left
 };
 
 class Lids {

@@ -10,11 +10,11 @@ using namespace landmark;
 /// Millimetres inside the red lip's outline as seen from the front; negative outside.
 double inside_lip(const Vec3& p) {
     const double x = std::abs(p.x), t = std::min(x / mouth_corner_x, 1.0);
-    const double closing = std::pow(std::max(0.0, 1 - t * t), 0.72);
+    const double closing = std::pow(std::max(0.0, 1 - t * t), 0.85);
     const double bow = 1.5 * bell(x, 3.0);
     const double ragged = 0.22 * noise(p / 0.8) + 0.35 * noise(p / 3.1);
-    const double top = lip_line_y(x) + 7.6 * closing - bow;
-    const double bottom = lip_line_y(x) - 10.6 * std::pow(closing, 0.9);
+    const double top = lip_line_y(x) + 6.6 * closing - bow;
+    const double bottom = lip_line_y(x) - 9.0 * std::pow(closing, 0.9);
     const double beside = mouth_corner_x + 0.3 - x;
     return std::min({top - p.y, p.y - bottom, beside}) + ragged;
 }
