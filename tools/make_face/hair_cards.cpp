@@ -49,12 +49,12 @@ struct Layer {
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {320, 2.6, 1.4, true, 1.2, 1},
-        {320, 4.6, 2.2, true, 1.1, 2},
+        {320, 2.2, 1.3, true, 1.2, 1},
+        {320, 3.8, 2.0, true, 1.1, 2},
         {800, 2.0, 1.2, false, 0.5, -1.5, 7, 0.7},  // the hairline: narrow and sparse
-        {300, 6.8, 3.0, false, 1.0, 4},
-        {270, 8.8, 3.8, false, 0.9, 6},
-        {110, 10.5, 4.6, false, 0.7, 9},
+        {300, 5.4, 2.7, false, 1.0, 4},
+        {270, 7.0, 3.4, false, 0.9, 6},
+        {110, 8.6, 4.2, false, 0.7, 9},
     };
     HairCards cards;
     Random random(5);
