@@ -49,7 +49,7 @@ Vec3 moved(const ShapeTarget& t, Index v, double weight = 1) {
 }
 
 TEST(Face, HasTheSizeThatWasAskedFor) {
-    for (const std::size_t asked : {std::size_t{6'000}, std::size_t{22'000}, std::size_t{30'000}}) {
+    for (const std::size_t asked : {std::size_t{5'000}, std::size_t{22'000}, std::size_t{100'000}}) {
         const auto count = static_cast<double>(make_head(asked).mesh.positions.size());
         EXPECT_NEAR(count, static_cast<double>(asked), 0.15 * static_cast<double>(asked));
     }
@@ -132,7 +132,7 @@ TEST(Lids, NoVertexEntersAnEyeballAtAnyWeightOfAnyTarget) {
             const Vec3 centre = rest.x < 0 ? mirrored(landmark::eye_centre) : landmark::eye_centre;
             if (glm::distance(rest, centre) > 25) continue;
             const VertexTag& tag = head.tags[v];
-            if (tag.part == Part::lid_lining && tag.depth == 1) continue;  // sealed inside the ball on purpose
+            if (tag.part == Part::lid_lining && tag.depth > 0.75) continue;  // sealed inside the ball on purpose
             for (const double weight : {0.0, 0.25, 0.5, 0.75, 1.0}) {
                 const Vec3 arm = moved(t, v, weight) - centre;
                 const double distance = glm::length(arm);
@@ -220,7 +220,7 @@ TEST(Skin, HasNoHoleButTheNecksEndAndBehindTheLids) {
         ASSERT_EQ(count, 1);
         for (const Index v : {edge.first, edge.second}) {
             const VertexTag& tag = head.tags[v];
-            const bool neck = head.mesh.positions[v].y == -156;
+            const bool neck = head.mesh.positions[v].y < -135;            // the cut through the bust
             const bool hidden = tag.depth == 1 || tag.part == Part::ear;  // the ear's root is sunk into the head
             const bool throat = tag.part == Part::mouth_lining && tag.depth == 1;
             ASSERT_TRUE(neck || hidden || throat) << "a hole at " << head.mesh.positions[v].x << ", "
@@ -237,25 +237,72 @@ TEST(Skin, NormalsAreUnitAndTextureCoordinatesInside) {
     }
 }
 
-TEST(Skin, TheCrownsTextureIsNotStretched) {
-    const Mesh& mesh = built().head.mesh;
-    int count = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const auto y = [&](std::size_t c) { return mesh.positions[t[c]].y; };
-        if (std::min({y(0), y(1), y(2)}) < 100) continue;
-        const auto u = [&](std::size_t c) { return mesh.uv[t[c]].x; };
-        ASSERT_LT(std::max({u(0), u(1), u(2)}) - std::min({u(0), u(1), u(2)}),
-                  0.05);  // two columns at most; one shared pole made 0.5
-        ++count;
+/// What the texture gives the skin: texels a millimetre on a side of 2,048 by quantile of area, and texels of 1,000
+/// that two triangles cover.
+struct Layout {
+    double low = 0, median = 0, high = 0;  ///< 5 %, 50 %, 95 %
+    int overlapping = 0, covered = 0;
+};
+Layout measure_layout(const Head& head) {
+    constexpr int side = 1'000;
+    std::vector<std::uint8_t> cover(static_cast<std::size_t>(side) * side, 0);
+    std::vector<std::pair<double, double>> density;
+    double whole = 0;
+    for (const Triangle& t : head.mesh.triangles) {
+        const auto& p = head.mesh.positions;
+        const Vec2 a = head.mesh.uv[t[0]], b = head.mesh.uv[t[1]], c = head.mesh.uv[t[2]];
+        const double twice = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+        const double area = glm::length(glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+        const bool skin = std::ranges::all_of(t, [&](Index v) { return head.tags[v].part == Part::skin; });
+        if (skin && area > 1e-6) {
+            density.emplace_back(2'048 * std::sqrt(std::abs(twice) / area), area);
+            whole += area;
+        }
+        if (twice == 0) continue;
+        const Vec2 low = glm::min(a, glm::min(b, c)) * static_cast<double>(side),
+                   high = glm::max(a, glm::max(b, c)) * static_cast<double>(side);
+        for (int y = static_cast<int>(low.y); y <= static_cast<int>(high.y); ++y) {
+            for (int x = static_cast<int>(low.x); x <= static_cast<int>(high.x); ++x) {
+                const Vec2 q((x + 0.5) / side, (y + 0.5) / side);
+                const double wa = ((b.x - q.x) * (c.y - q.y) - (c.x - q.x) * (b.y - q.y)) / twice;
+                const double wb = ((c.x - q.x) * (a.y - q.y) - (a.x - q.x) * (c.y - q.y)) / twice;
+                if (wa > 1e-9 && wb > 1e-9 && wa + wb < 1 - 1e-9)
+                    ++cover[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
+            }
+        }
     }
-    EXPECT_GT(count, 100);
+    std::ranges::sort(density);
+    Layout layout;
+    double below = 0;
+    for (const auto& [texels, area] : density) {
+        below += area;
+        if (below < 0.05 * whole) layout.low = texels;
+        if (below < 0.5 * whole) layout.median = texels;
+        if (below < 0.95 * whole) layout.high = texels;
+    }
+    for (const std::uint8_t count : cover) {
+        layout.covered += count > 0;
+        layout.overlapping += count > 1;
+    }
+    return layout;
+}
+
+TEST(Texture, HasEvenDensityAndNoOverlaps) {
+    const Layout layout = measure_layout(built().head);
+    std::printf(
+        "texels a mm at 2,048: 5 %% %.2f, median %.2f, 95 %% %.2f (ratio %.2f); %.1f %% used, %d of %d overlap\n",
+        layout.low, layout.median, layout.high, layout.high / layout.low, layout.covered / 1e4, layout.overlapping,
+        layout.covered);
+    EXPECT_LT(layout.high / layout.low, 2);
+    EXPECT_LE(layout.overlapping, layout.covered / 5'000);  // folds of less than a texel under the nose's tip
+    EXPECT_GT(layout.covered, 500'000);
 }
 
 TEST(File, SameRequestSameBytes) {
-    const std::string once = glb_bytes(build_face(6'000, {}, 128));
+    const std::string once = glb_bytes(build_face(5'000, {}, 128));
     EXPECT_GT(once.size(), 1'000'000U);
     EXPECT_EQ(once.substr(0, 4), "glTF");
-    EXPECT_EQ(once, glb_bytes(build_face(6'000, {}, 128)));
+    EXPECT_EQ(once, glb_bytes(build_face(5'000, {}, 128)));
 }
 
 TEST(File, BadPathIsOneSentenceAndLeavesNothing) {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "runtime/face_appearance.h"
+#include "tools/make_face/head_mesh.h"
 #include "tools/make_face/write_maps.h"
 
 namespace blush::make_face {
@@ -47,7 +48,7 @@ void FaceCommand::add_to(CLI::App& command) {
     command.add_option("--set", sets, "A parameter and its value, such as jaw_width=+1; may be given several times")
         ->delimiter(',');
     command.add_option("--vertices", vertices, "Vertices of the skin, roughly")
-        ->check(CLI::Range(6'000, 30'000))
+        ->check(CLI::Range(least_vertices, most_vertices))
         ->capture_default_str();
     command.add_option("--texture-size", texture_side, "Texels of a side of the skin's maps")
         ->check(CLI::Range(64, 8'192))

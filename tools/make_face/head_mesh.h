@@ -1,6 +1,6 @@
 #pragma once
-/// The skin of the head as a mesh: a grid of columns (azimuth) and rows (elevation) seen from inside the head, slit at
-/// the eyes and the mouth; strips that turn inward from the slits give the lids and lips their thickness and line the
+/// The skin of the head as a mesh of any size: samples of one grid (coarse_head.h) that is slit at the eyes and the
+/// mouth; strips that turn inward from the slits give the lids and lips their thickness and line the
 /// mouth.
 
 #include <cstddef>
@@ -31,7 +31,9 @@ struct Head {
     std::vector<Index> upper_lip, lower_lip;  ///< edges of the left half from the middle to the corner, equal in length
 };
 
-/// About `vertices` vertices (from 6,000 to 30,000).
+inline constexpr std::size_t least_vertices = 5'000, most_vertices = 1'000'000;
+
+/// About `vertices` vertices. Every size is a sample of the same surface (coarse_head.h).
 Head make_head(std::size_t vertices);
 
 /// Fills mesh.normals from its positions, the same on both halves.

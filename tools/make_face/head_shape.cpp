@@ -37,9 +37,24 @@ double skull(const Vec3& p) {
     d = join(d, ellipsoid(p, {0, -97.5, 71}, {15.5, 13.5, 15.5}), 16);   // chin
     d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);          // nape
     d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);         // behind the concha
-    const Vec3 neck{p.x, p.y, p.z * 0.96};
-    d = join(d, cone(p, {41, -62, -22}, {13, -170, 4}, 11, 5), 16);  // sternocleidomastoid
-    return join(d, cone(neck, {0, -80, -24}, {0, -205, -36}, 44, 50), 22);
+    return d;
+}
+
+double neck_and_shoulders(const Vec3& p, double d) {
+    double n = cone({p.x, p.y, p.z * 0.96}, {0, -80, -24}, {0, -205, -38}, 45, 50);
+    n = join(n, ellipsoid(p, {0, -142, 10}, {12, 20, 14}), 16);          // larynx
+    n = join(n, cone(p, {24, -96, -62}, {142, -212, -50}, 22, 20), 46);  // trapezius
+    double chest = join(ellipsoid(p, {0, -296, -34}, {165, 112, 80}), ellipsoid(p, {118, -262, -44}, {70, 62, 52}), 30);
+    chest = join(chest, ellipsoid(p, {62, -236, -38}, {78, 52, 46}), 30);  // what fills the shoulder
+    const double clavicle =
+        join(cone(p, {14, -203, 36}, {70, -198, 25}, 6, 4.8), cone(p, {70, -198, 25}, {150, -192, -22}, 4.8, 7), 10);
+    chest = join(chest, clavicle, 9);
+    n = join(n, chest, 26);
+    n = join(n, cone(p, {50, -48, -22}, {34, -120, -8}, 8, 8), 14);  // sternocleidomastoid
+    n = join(n, cone(p, {34, -120, -8}, {12, -196, 22}, 8, 3), 18);
+    n = carve(n, ellipsoid(p, {0, -196, 39}, {9, 10, 12}), 10);   // sternal notch
+    n = carve(n, ellipsoid(p, {52, -186, 22}, {26, 8, 18}), 16);  // over the clavicle
+    return join(d, n, 20);
 }
 
 double soft_tissue(const Vec3& p, double d) {
@@ -59,30 +74,36 @@ double lids(const Vec3& p, double d) {
     const double softness = mix(5, 1.8, smooth_step(-5, 4, p.y));  // the upper lid has a crease, the lower one none
     d = join(d, glm::length(p - landmark::eye_centre) - radius, softness);
     d = join(d, glm::length(p - Vec3(17, -3, 75)) - 4, 5);  // inner canthus
+    // The crease that the upper lid folds at, some 8 mm over its edge.
+    const double crease =
+        join(cone(p, {20, 4.5, 80}, {31, 9.0, 83.6}, 0.5, 0.9), cone(p, {31, 9.0, 83.6}, {46, 4.0, 75}, 0.9, 0.5), 3);
+    d = carve(d, crease, 3);
     return d;
 }
 
 double nose(const Vec3& p, double d) {
-    double n = cone(p, {0, 6, 85}, {0, -34, 100.5}, 4.8, 6.5);           // bridge
-    n = join(n, cone(p, {2.5, -2, 79}, {8.5, -36, 90}, 6, 7.5), 9);      // its sides
-    n = join(n, ellipsoid(p, {0, -36, 102.5}, {8.2, 8, 8.8}), 9);        // tip
-    n = join(n, ellipsoid(p, {10.6, -40.5, 96}, {5.6, 6.2, 8.4}), 6.5);  // wing
-    n = join(n, cone(p, {0, -42, 105}, {0, -47, 96}, 3.0, 3.4), 4);      // columella
-    d = join(d, n, 7);
-    return carve(d, ellipsoid(p, {6.2, -46.5, 98.5}, {3.1, 7.0, 5.2}), 2.5);
+    double n = cone(p, {0, 6, 85}, {0, -33, 101}, 4.6, 5.4);               // bridge
+    n = join(n, cone(p, {2.5, -2, 79}, {7.5, -35, 90.5}, 6, 6.6), 9);      // its sides
+    n = join(n, ellipsoid(p, {0, -36, 102.5}, {6.6, 7.2, 8.2}), 7);        // tip
+    n = join(n, ellipsoid(p, {3.4, -37, 105}, {4.2, 4.8, 5.0}), 4);        // its two domes
+    n = join(n, ellipsoid(p, {11.2, -40.8, 95}, {4.6, 5.8, 7.6}), 4.5);    // wing
+    n = join(n, cone(p, {0, -42, 105.5}, {0, -47.5, 96}, 2.6, 3.0), 3.5);  // columella
+    d = join(d, n, 5.5);
+    d = carve(d, cone(p, {16.2, -36, 90}, {17.2, -45, 88.5}, 0.7, 1.0), 3);  // groove behind the wing
+    return d;
 }
 
 double mouth(const Vec3& p, double d) {
     // Vermilion of the upper lip: highest at the two peaks of the cupid's bow, 5 mm off the middle.
-    double lips = join(cone(p, {0, -65.6, 92.5}, {6, -64.4, 91.8}, 4.3, 4.5),
-                       cone(p, {6, -64.4, 91.8}, {25, -68.2, 80.5}, 4.5, 1.8), 2);
-    const double lower = join(cone(p, {0, -73.6, 90.8}, {9, -73.2, 89.3}, 6.0, 5.6),
-                              cone(p, {9, -73.2, 89.3}, {25, -69.4, 80.0}, 5.4, 1.4), 5);
-    lips = join(lips, lower, 1.0);
-    d = join(d, lips, 3.5);
-    d = carve(d, cone(p, {0, -48, 101}, {0, -60, 99.6}, 2.6, 3.0), 4);  // philtrum
-    d = carve(d, ellipsoid(p, {0, -86, 98}, {19, 5, 7.5}), 9);          // mentolabial fold
-    d = carve(d, glm::length(p - Vec3(27.5, -69, 85)) - 2.5, 5);        // corner
+    double lips = join(cone(p, {0, -65.8, 92.6}, {5.5, -64.8, 92.2}, 3.3, 3.6),
+                       cone(p, {5.5, -64.8, 92.2}, {25, -68.4, 80.5}, 3.6, 1.4), 2);
+    const double lower = join(cone(p, {0, -72.9, 91.0}, {9, -72.5, 89.4}, 4.9, 4.6),
+                              cone(p, {9, -72.5, 89.4}, {25, -69.4, 80.0}, 4.5, 1.2), 5);
+    lips = join(lips, lower, 0.9);
+    d = join(d, lips, 2.4);
+    d = carve(d, cone(p, {0, -49, 100.6}, {0, -61, 99.2}, 2.3, 2.9), 3.2);  // philtrum
+    d = carve(d, ellipsoid(p, {0, -84.5, 97}, {18, 4.6, 7.5}), 9);          // mentolabial fold
+    d = carve(d, glm::length(p - Vec3(27.5, -69, 85)) - 2.5, 5);            // corner
     return d;
 }
 
@@ -91,7 +112,7 @@ double mouth(const Vec3& p, double d) {
 double head_distance(const Vec3& point) {
     // The rounded |x| keeps features that lean toward the midline from creasing there.
     const Vec3 p{std::sqrt(square(point.x) + 1), point.y, point.z};
-    return mouth(p, nose(p, lids(p, soft_tissue(p, skull(p)))));
+    return mouth(p, nose(p, lids(p, soft_tissue(p, neck_and_shoulders(p, skull(p))))));
 }
 
 Vec3 head_normal(const Vec3& p) {
@@ -119,6 +140,13 @@ Vec3 leave_head(const Vec3& origin, const Vec3& direction) {
         (head_distance(origin + direction * middle) < 0 ? low : high) = middle;
     }
     return origin + direction * high;
+}
+
+Vec3 sink_nostril(const Vec3& p) {
+    constexpr Vec3 centre{5.9, -46.8, 98.3}, widths{3.3, 4.5, 4.6}, inward{1.2, 8.0, -4.5};
+    const double reach = glm::length((Vec3(std::abs(p.x), p.y, p.z) - centre) / widths);
+    const Vec3 sunk = inward * smooth_step(1.15, 0.35, reach);
+    return p + Vec3(p.x < 0 ? -sunk.x : sunk.x, sunk.y, sunk.z);
 }
 
 Vec3 project_to_head(const Vec3& start) {

@@ -35,6 +35,9 @@ Vec3 leave_head(const Vec3& origin, const Vec3& direction);
 /// The nearby place on the surface, along the gradient.
 Vec3 project_to_head(const Vec3& p);
 
+/// Sinks the surface into the nostrils: they are pits behind an edge, which no ray from inside the head could tell.
+Vec3 sink_nostril(const Vec3& p);
+
 /// Height of the upper and lower lid's edge over the line between the canthi (both positive), at x on the left eye.
 double upper_lid_height(double x);
 double lower_lid_height(double x);
