@@ -41,19 +41,19 @@ double relief(const SurfaceTexel& texel) {
         double skin = -0.125 * mix(0.22, 1.0, wide) * (1 - 0.85 * eye) * pit;
         // Primary lines: two families that cross, bent by a slow noise (Mac-Neil 1: skin relief is a net of rhombs).
         const double bend = 1.6 * noise(p / 6.0);
-        const double u = p.x + 0.35 * p.z, v = p.y;
+        constexpr double head_radius = 76;  // so that u is a length along the skin, also on the sides of the face
+        const double u = head_radius * std::atan2(p.x, p.z + 12), v = p.y;
         const double mesh = mix(1.15, 0.75, std::max(eye, 0.6 * wide));
         const double across = noise({(0.80 * u + 0.60 * v) / mesh + bend, (0.80 * v - 0.60 * u) / (4.5 * mesh), 3.5});
         const double other = noise({(0.74 * u - 0.67 * v) / mesh - bend, (0.74 * v + 0.67 * u) / (4.5 * mesh), 9.5});
         skin += (0.042 + 0.012 * eye) * (furrow(across, 0.5, 2) + furrow(other, 0.5, 2));
         // The forehead's fine lines lie across it; those about the eye run out from its corner.
-        skin += 0.055 * forehead * furrow(noise({p.x / 16, v / 1.7 + 0.6 * noise(p / 9.0), 1.5}), 0.4, 2);
+        skin += 0.055 * forehead * furrow(noise({u / 16, v / 1.7 + 0.6 * noise(p / 9.0), 1.5}), 0.4, 2);
         const Vec3 from_corner = half - Vec3(44, -2, 62);
         const double fan = std::atan2(from_corner.y, from_corner.x + 8);
         skin += 0.060 * bell(from_corner, Vec3(0), {14, 12, 16}) *
                 furrow(noise({fan * 9, glm::length(from_corner) / 9, 6.5}), 0.35, 2);
-        skin +=
-            0.045 * smooth_step(-105, -122, p.y) * furrow(noise({p.x / 22, v / 4.2 + noise(p / 15.0), 2.5}), 0.25, 2);
+        skin += 0.045 * smooth_step(-105, -122, p.y) * furrow(noise({u / 22, v / 4.2 + noise(p / 15.0), 2.5}), 0.25, 2);
         // Slow unevenness: no skin is a smooth shell.
         skin += 0.075 * noise(p / 3.4) + 0.035 * noise(p / 1.3);
         h = skin * (1 - lip);

@@ -75,6 +75,15 @@ Picture paint_eye(int side, const Vec3& iris_color) {
     });
 }
 
+Picture paint_teeth(int side) {
+    return paint_square(side, [](double u, double v) {
+        const double back = 2 * std::abs(u - 0.5);
+        const double stain = 0.5 + 0.5 * noise({u * 40, v * 6, 0.5});
+        const Color ivory = blend(Color(0.80, 0.765, 0.69), Color(0.76, 0.70, 0.60), 0.6 * stain + 0.4 * back);
+        return ivory * mix(1, 0.30, smooth_step(0.18, 0.85, back));
+    });
+}
+
 Picture paint_gum(int side) {
     return paint_square(side, [](double u, double v) {
         const double mottled = fractal_noise({u * 60, v * 12, 0.5}, 2);
