@@ -86,7 +86,8 @@ HairCards make_hair_cards(const HairStyle& style) {
                                   mix(0.45, 1, smooth_step(0, 22, above)) *
                                   (1 - 0.45 * bell(glm::distance(q, whorl_place), 30));
             const int segments = top > 0.5 ? 5 : 3;
-            const ClumpArea area = hair_clump(clump, layer.shaded);
+            // At the hairline nothing lies above that would shade it.
+            const ClumpArea area = hair_clump(clump, layer.shaded && above > 12);
             const double left = flipped ? area.right : area.left, right = flipped ? area.left : area.right;
             const Vec3 root = q;
             const auto first = static_cast<Index>(cards.mesh.positions.size());
