@@ -40,7 +40,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
                             .occluded = true};
     face.materials[eye] = {
         .name = "eye", .roughness = 0.1, .base_color_png = png(paint_eye(eye_texture_side, vec3(person.skin.eyes)))};
-    face.materials[tooth] = {.name = "teeth", .base_color_linear = {0.66, 0.58, 0.45, 1}, .roughness = 0.25};
+    face.materials[tooth] = {.name = "teeth", .roughness = 0.25, .base_color_png = png(paint_teeth(64))};
     face.materials[gum] = {.name = "gums", .roughness = 0.35, .base_color_png = png(paint_gum(128))};
     face.materials[tongue] = {.name = "tongue", .roughness = 0.4, .base_color_png = png(paint_tongue(128))};
     const auto strands = [&](const char* name, double darker, const Picture& picture) {

@@ -49,12 +49,10 @@ struct Layer {
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {320, 2.6, 1.4, true, 1.2, 1},
-        {320, 4.6, 2.2, true, 1.1, 2},
-        {800, 2.0, 1.2, false, 0.5, -1.5, 7, 0.7},  // the hairline: narrow and sparse
-        {300, 6.8, 3.0, false, 1.0, 4},
-        {270, 8.8, 3.8, false, 0.9, 6},
-        {110, 10.5, 4.6, false, 0.7, 9},
+        {320, 2.2, 1.3, true, 1.2, 1},           {320, 3.8, 2.0, true, 1.1, 2},
+        {900, 2.0, 1.2, false, 0.9, -2, 8, 0.7},  // the hairline: narrow and sparse
+        {300, 5.4, 2.7, false, 1.0, 4},          {270, 7.0, 3.4, false, 0.9, 6},
+        {110, 8.6, 4.2, false, 0.7, 9},
     };
     HairCards cards;
     Random random(5);
@@ -82,12 +80,14 @@ HairCards make_hair_cards(const HairStyle& style) {
             const double grown = mix(0.62, 1, smooth_step(0, 16, above));
             const double length = style.length * layer.length * grown *
                                   mix(mix(17, 27, smooth_step(-50, 40, q.y)), 42, top) * mix(0.82, 1.2, length_luck);
-            const double half_width = 0.5 * layer.width * mix(8.5, 12, top) * mix(0.8, 1.2, width_luck);
+            const double half_width = 0.5 * layer.width * mix(8.5, 12, top) * mix(0.8, 1.2, width_luck) *
+                                      mix(0.5, 1, smooth_step(0, 14, above));
             const double raised = style.lift * lift_luck * mix(layer.side_height, layer.top_height, top) *
                                   mix(0.45, 1, smooth_step(0, 22, above)) *
                                   (1 - 0.45 * bell(glm::distance(q, whorl_place), 30));
             const int segments = top > 0.5 ? 5 : 3;
-            const ClumpArea area = hair_clump(clump, layer.shaded);
+            // At the hairline nothing lies above that would shade it.
+            const ClumpArea area = hair_clump(clump, layer.shaded && above > 12);
             const double left = flipped ? area.right : area.left, right = flipped ? area.left : area.right;
             const Vec3 root = q;
             const auto first = static_cast<Index>(cards.mesh.positions.size());
