@@ -7,6 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "runtime/effect.h"
 #include "runtime/character_state.h"
 #include "runtime/environment_map.h"
 #include "tests/gl_fixture.h"
