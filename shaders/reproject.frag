@@ -16,7 +16,8 @@ layout(location = 0) out vec4 result;
 
 // Whether what the last frame has around `last_pixel` is what this frame has around `pixel`, moving alike: then the two
 // differ by where in the pixel they were sampled, and by nothing else. Where they do not, a surface has moved away from
-// before the one seen here, or has been blended with it by the filter. asked: false saves the fetches.
+// before the one seen here, or has been blended with it by the filter. (Nehab 2007 finds a surface again by its depth.)
+// asked: false saves the fetches.
 bool seen_alike(bool asked, ivec2 pixel, vec2 velocity, ivec2 last_pixel, vec2 size) {
     int count = asked ? 9 : 0;
     // A twentieth of a pixel a frame is no motion: that far, a contour is in its place. The rest, as surfaces turn, and as
