@@ -28,15 +28,15 @@ double carve(double a, double hollow, double k) { return -join(-a, hollow, k); }
 
 double skull(const Vec3& p) {
     double d = ellipsoid(p, {0, 36, -8}, {74, 78, 88});
-    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);            // frontal bone
-    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);           // midface
-    d = join(d, ellipsoid(p, {43, -22, 50}, {21, 15, 23}), 22);          // zygomatic bone
-    d = join(d, cone(p, {36.5, -68, 8}, {9, -97.5, 66.5}, 12, 12), 22);  // body of the mandible
-    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);      // its ramus
-    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);           // floor of the mouth
-    d = join(d, ellipsoid(p, {0, -97.5, 71}, {15.5, 13.5, 15.5}), 16);   // chin
-    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);          // nape
-    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);         // behind the concha
+    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);           // frontal bone
+    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);          // midface
+    d = join(d, ellipsoid(p, {43, -22, 50}, {21, 15, 23}), 22);         // zygomatic bone
+    d = join(d, cone(p, {36.5, -68, 8}, {9, -97.5, 65}, 12, 12), 22);   // body of the mandible
+    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);     // its ramus
+    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);          // floor of the mouth
+    d = join(d, ellipsoid(p, {0, -97.5, 69}, {15.5, 13.5, 15.0}), 16);  // chin
+    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);         // nape
+    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);        // behind the concha
     return d;
 }
 
