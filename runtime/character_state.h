@@ -11,6 +11,7 @@
 
 #include "rig/blood_flow.h"
 #include "rig/head_and_eyes.h"
+#include "rig/material_kind.h"
 #include "rig/rig.h"
 #include "runtime/antialias/sampling.h"
 #include "runtime/device.h"
@@ -63,6 +64,7 @@ struct FrameResources {
     /// Light that scatters, the albedo that it leaves by, its depth, each times the skin's matte; with scattering only.
     ResourceId skin_light{}, skin_albedo{}, skin_depth{};
     ResourceId shadow_maps{};
+    ResourceId log2_exposure{};  ///< one texel, with the automatic exposure only
     /// Multisampled images that shading writes and what they become, one sample a pixel: the scene's colour, and others
     /// that are resolved with its weights.
     struct Resolved {
@@ -101,9 +103,10 @@ struct CharacterState {
     std::vector<std::uint8_t> target_moves_normals;         // of each target, for any primitive that it moves
 
     // The pose that the deformed buffers hold.
-    std::vector<bool> skin_material;   // of each material and, last, the default one
-    std::vector<SkinPart> skin_parts;  // by node
-    std::vector<float> target_reach;   // of each target: its longest move of skin at weight 1, mesh units
+    std::vector<bool> skin_material;          // of each material and, last, the default one
+    std::vector<MaterialKind> material_kind;  // the same
+    std::vector<SkinPart> skin_parts;         // by node
+    std::vector<float> target_reach;          // of each target: its longest move of skin at weight 1, mesh units
     double millimetres_a_unit = 1;
     std::vector<ActiveTarget> active, deformed_active;
     NormalMethod normal_method = NormalMethod::authored;

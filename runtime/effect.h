@@ -104,6 +104,7 @@ extern const Effect deformation_effect, normals_effect, skinning_effect;
 extern const Effect wrinkles_effect, blood_effect;
 extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
     antialiasing_effect, supersampling_effect, reprojection_effect;
+extern const Effect parts_effect, depth_of_field_effect, bloom_effect, exposure_effect, film_grain_effect;
 extern const Effect shadows_effect, translucency_effect, reflection_effect, environment_effect, scattering_effect;
 
 }  // namespace blush

@@ -66,19 +66,23 @@ std::array<const TextureUse*, 5> textures_of(const Material& m) {
     return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb};
 }
 
-constexpr std::array<std::string_view, 15> defines_of_bits = {
+constexpr std::array<std::string_view, 18> defines_of_bits = {
     "BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP", "OCCLUSION_MAP", "EMISSIVE_MAP", "SKIN",
     "SCATTER",        "SKIN_REFLECTION",        "SHADOWS",    "TRANSLUCENCY",  "ENVIRONMENT",  "AMBIENT_OCCLUSION",
-    "WRINKLES",       "WRINKLE_DIFFERENCES",    "BLOOD"};
+    "WRINKLES",       "WRINKLE_DIFFERENCES",    "BLOOD",      "EYE",           "MOUTH",        "HAIR"};
 
-std::uint32_t permutation_of(const Material& material, bool skin, std::uint32_t frame_bits) {
+std::uint32_t permutation_of(const Material& material, MaterialKind kind, std::uint32_t frame_bits) {
     const auto uses = textures_of(material);
     std::uint32_t bits = frame_bits;
     for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? 1U << t : 0U;
     // What only skin has is left out elsewhere, so that fewer programs are made.
     constexpr std::uint32_t of_skin =
         shade_skin_reflection | shade_translucency | shade_wrinkles | shade_wrinkle_differences | shade_blood;
-    return skin ? bits | shade_skin : bits & ~of_skin;
+    bits &= ~(shade_eye | shade_mouth | shade_hair);
+    if (kind == MaterialKind::eye) bits |= frame_bits & shade_eye;
+    if (kind == MaterialKind::mouth) bits |= frame_bits & shade_mouth;
+    if (kind == MaterialKind::hair) bits |= frame_bits & shade_hair;
+    return kind == MaterialKind::skin ? bits | shade_skin : bits & ~of_skin;
 }
 
 Status make_permutation(std::map<std::uint32_t, gl::Program>& programs, std::uint32_t bits) {
@@ -194,15 +198,15 @@ void FaceModel::bind_surface(const SurfaceBuffers& surface) const {
     glBindVertexArray(array);
 }
 
-Status FaceModel::prepare(const Face& face, const std::vector<bool>& skin, std::uint32_t frame_bits) {
+Status FaceModel::prepare(const Face& face, const std::vector<MaterialKind>& kinds, std::uint32_t frame_bits) {
     for (std::size_t m = 0; m < face.materials.size(); ++m) {
-        const std::uint32_t bits = permutation_of(face.materials[m], skin[m], frame_bits);
+        const std::uint32_t bits = permutation_of(face.materials[m], kinds[m], frame_bits);
         if (Status made = make_permutation(programs, bits); !made) return made;
     }
     const bool uses_default =
         std::ranges::any_of(face.primitives, [](const Primitive& primitive) { return primitive.material < 0; });
     if (!uses_default) return Done{};
-    return make_permutation(programs, permutation_of(default_material(), skin.back(), frame_bits));
+    return make_permutation(programs, permutation_of(default_material(), kinds.back(), frame_bits));
 }
 
 namespace {
@@ -229,8 +233,9 @@ void FaceModel::bind_maps(const Face& face, std::int32_t material) const {
     }
 }
 
-void FaceModel::bind_material(const Face& face, std::int32_t material, bool skin, std::uint32_t frame_bits) const {
-    glUseProgram(programs.at(permutation_of(material_of(face, material), skin, frame_bits)).name());
+void FaceModel::bind_material(const Face& face, std::int32_t material, MaterialKind kind,
+                              std::uint32_t frame_bits) const {
+    glUseProgram(programs.at(permutation_of(material_of(face, material), kind, frame_bits)).name());
     bind_maps(face, material);
 }
 

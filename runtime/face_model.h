@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rig/face.h"
+#include "rig/material_kind.h"
 #include "rig/result.h"
 #include "runtime/gl/object.h"
 #include "runtime/gl/program.h"
@@ -26,6 +27,9 @@ enum ShadeBits : std::uint32_t {
     shade_wrinkles = 1U << 12,
     shade_wrinkle_differences = 1U << 13,
     shade_blood = 1U << 14,
+    shade_eye = 1U << 15,  ///< of the material, where the frame has it
+    shade_mouth = 1U << 16,
+    shade_hair = 1U << 17,
 };
 
 struct FaceModel {
@@ -37,10 +41,10 @@ struct FaceModel {
     void bind_maps(const Face& face, std::int32_t material) const;
     /// Uses the program, and binds the block and the textures, of a material (-1: the default one). frame_bits: what
     /// the frame adds to the permutation; prepare() must have been called with them.
-    void bind_material(const Face& face, std::int32_t material, bool skin, std::uint32_t frame_bits) const;
-    /// Makes the programs that a frame needs, where they are not there yet. skin: of each material and, last, the
+    void bind_material(const Face& face, std::int32_t material, MaterialKind kind, std::uint32_t frame_bits) const;
+    /// Makes the programs that a frame needs, where they are not there yet. kinds: of each material and, last, the
     /// default one.
-    Status prepare(const Face& face, const std::vector<bool>& skin, std::uint32_t frame_bits);
+    Status prepare(const Face& face, const std::vector<MaterialKind>& kinds, std::uint32_t frame_bits);
     /// Binds entry `index` of draw_blocks.
     void bind_draw(std::size_t index) const;
 

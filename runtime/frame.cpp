@@ -39,7 +39,7 @@ void find_facts(CharacterState& state, const View& view) {
 void find_light_facts(CharacterState& state, const View& view) {
     if (view.lighting == nullptr) state.portrait = portrait_lighting(view.camera);
     state.lighting = view.lighting != nullptr ? view.lighting : &state.portrait;
-    usable_lights(*state.lighting, state.lights);
+    usable_lights(*state.lighting, view.time_seconds, state.lights);
     state.facts.lights = static_cast<std::uint32_t>(state.lights.size());
     find_skin_facts(state);
     place_shadow_maps(state);

@@ -25,6 +25,9 @@ struct LightSource {
     float inner_radians = 0.4F;    ///< half angle of a spot's full light, below `outer_radians`
     float outer_radians = 0.5F;    ///< half angle of a spot's end, above 0 and below pi / 2
     bool casts_shadow = true;      ///< and shines through thin parts
+    /// Goes round the upright axis through Lighting::orbit_centre_world once in so many seconds of View::time_seconds,
+    /// from where it stands at 0, past the face's front to its left (below 0: to its right). 0: it stands.
+    float orbit_seconds = 0;
 };
 
 /// A radiance map in equal longitudes and latitudes (rig/spherical_harmonics.h), prepared once.
@@ -47,6 +50,7 @@ struct Lighting {
     std::vector<LightSource> lights;
     glm::vec3 sky_radiance_linear{0}, ground_radiance_linear{0};  ///< ambient; not used with an environment
     std::shared_ptr<const Environment> environment;
+    glm::vec3 orbit_centre_world{0};
     float environment_factor = 1, environment_turn_radians = 0;
 };
 

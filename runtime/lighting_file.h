@@ -11,7 +11,8 @@
 
 namespace blush {
 
-/// A lighting by name: "front", "side", "behind", fixed to the head and not to the camera. Error: no such name (the
+/// A lighting by name: "front", "side", "behind", fixed to the head and not to the camera; "orbit": a dim one in front
+/// and a bright one that goes once round the head in a minute. Error: no such name (the
 /// message lists them).
 Result<Lighting> named_lighting(std::string_view name);
 

@@ -23,6 +23,16 @@ bool usable(const LightSource& light) {
            (light.kind == LightKind::point || cone);
 }
 
+/// Where an orbiting light is at a time.
+LightSource orbited(LightSource light, const glm::vec3& centre, double time_seconds) {
+    if (light.orbit_seconds == 0 || !std::isfinite(light.orbit_seconds) || !std::isfinite(time_seconds)) return light;
+    const double turns = std::fmod(time_seconds / static_cast<double>(light.orbit_seconds), 1.0);
+    const glm::mat3 turn(glm::rotate(glm::mat4(1), static_cast<float>(turns * 6.283185307179586), glm::vec3(0, 1, 0)));
+    light.direction_world = turn * light.direction_world;
+    light.position_world = centre + turn * (light.position_world - centre);
+    return light;
+}
+
 LightSource from_camera(const glm::mat4& world_from_view, glm::vec3 towards_view, glm::vec3 radiance, bool shadow) {
     LightSource light;
     light.direction_world = -glm::normalize(glm::mat3(world_from_view) * glm::normalize(towards_view));
@@ -44,10 +54,12 @@ Lighting portrait_lighting(const Camera& camera) {
     return lighting;
 }
 
-void usable_lights(const Lighting& lighting, std::vector<LightSource>& out) {
+void usable_lights(const Lighting& lighting, double time_seconds, std::vector<LightSource>& out) {
     out.clear();
     for (const LightSource& light : lighting.lights) {
-        if (out.size() < BLUSH_MOST_LIGHTS && usable(light)) out.push_back(light);
+        if (out.size() < BLUSH_MOST_LIGHTS && usable(light)) {
+            out.push_back(orbited(light, lighting.orbit_centre_world, time_seconds));
+        }
     }
 }
 

@@ -15,7 +15,7 @@ namespace blush {
 Lighting portrait_lighting(const Camera& camera);
 
 /// Lights that take part: no dark ones, none that is not finite, at most BLUSH_MOST_LIGHTS. `out` keeps its memory.
-void usable_lights(const Lighting& lighting, std::vector<LightSource>& out);
+void usable_lights(const Lighting& lighting, double time_seconds, std::vector<LightSource>& out);
 
 /// A light as the shader reads it, without a shadow map.
 shared::Light shader_light(const LightSource& light);

@@ -41,6 +41,7 @@ float largest_scale(const glm::mat4& matrix) {
 void find_skin_parts(CharacterState& state) {
     const Face& face = state.face;
     state.skin_material = skin_materials(face);
+    state.material_kind = material_kinds(face);
     std::vector<std::uint8_t> is_skin(face.positions.size(), 0);
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
         if (face.nodes[n].mesh < 0) continue;

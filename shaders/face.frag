@@ -54,6 +54,10 @@ vec3 unit_or(vec3 v, vec3 fallback) {
     return length2 > 1e-30 && length2 < 1e37 ? v * inversesqrt(length2) : fallback;
 }
 
+#if defined(EYE) || defined(MOUTH) || defined(HAIR)
+#include "parts.glsl"
+#endif
+
 vec3 shading_normal(vec3 view_world) {
     vec3 n = unit_or(normal_world, view_world);
 #if defined(NORMAL_MAP) || defined(WRINKLES)
@@ -114,12 +118,44 @@ Arriving arriving(int i) {
     return result;
 }
 
+#ifdef HAIR
+// An edge of a cut-out strand covers a share of the samples, as a triangle's edge does: the cut-off stands in the middle
+// of a step one pixel wide. Which samples goes round from pixel to pixel, so that overlapping strands do not always hide
+// the same ones.
+void cover_samples(float opacity) {
+    gl_SampleMask[0] = (1 << max(gl_NumSamples, 1)) - 1;
+    if (gl_NumSamples < 2 || alpha.x < 0.0) {
+        if (opacity < alpha.x) discard;
+        return;
+    }
+    float share = clamp((opacity - alpha.x) / max(fwidth(opacity), 1e-3) + 0.5, 0.0, 1.0);
+    int count = int(share * float(gl_NumSamples) + 0.5);
+    if (count == 0) discard;
+    int turn = (int(gl_FragCoord.x) + 2 * int(gl_FragCoord.y)) % gl_NumSamples;
+    int mask = ((1 << count) - 1) << turn;
+    gl_SampleMask[0] = (mask | mask >> gl_NumSamples) & ((1 << gl_NumSamples) - 1);
+}
+#endif
+
 void main() {
     vec4 base = base_color_linear;
+#ifdef EYE
+    Eye eye = eye_here(position_world);
+    vec3 towards_camera = unit_or(camera_world.xyz - position_world, vec3(0.0, 0.0, 1.0));
+    vec2 seen_iris = iris_offset(eye, position_world, unit_or(normal_world, towards_camera), towards_camera, texture_uv[0]);
+#endif
 #ifdef BASE_COLOR_MAP
+#ifdef EYE
+    base *= textureGrad(base_color_map, texture_uv[0] + seen_iris, dFdx(texture_uv[0]), dFdy(texture_uv[0]));
+#else
     base *= texture(base_color_map, texture_uv[0]);
 #endif
+#endif
+#ifdef HAIR
+    cover_samples(base.a);
+#else
     if (base.a < alpha.x) discard;
+#endif
 
 #ifdef BLOOD
     base.rgb = flushed(base.rgb, layout_uv);
@@ -159,6 +195,19 @@ void main() {
     ambient *= ambient_visibility;
     ambient_mirrored *= min(ambient_visibility, vec3(1.0));
 #endif
+#ifdef EYE
+    float lids = lid_visibility(eye, position_world);
+    ambient *= lids;
+    ambient_mirrored *= lids;
+    // A film of tears lies over everything: its own reflection (1.336) and nothing rougher below.
+    roughness = parts.w;
+    f0 = vec3(0.0207);
+    // The iris is a shallow bowl: light from one side brightens the other.
+    vec3 inner = eye.index < 0 ? n : unit_or(mix(n, eye.axis - 0.7 * (n - eye.axis * dot(n, eye.axis)), over_iris(eye, position_world)), n);
+#endif
+#ifdef HAIR
+    vec3 strand = strand_direction(position_world, texture_uv[0], n);
+#endif
     vec3 entering = vec3(0.0);  // radiance that white would reflect, of the light that is left for the inside
     vec3 surface = vec3(0.0);   // reflected at the surface
     vec3 leaving = vec3(1.0);   // share that the surface lets out again
@@ -188,13 +237,19 @@ void main() {
 #if defined(SKIN) && defined(TRANSLUCENCY)
         entering += light.radiance * transmitted(i, l, vertex_normal);
 #endif
+#ifndef HAIR
         if (n_l <= 0.0) continue;
+#endif
         vec3 radiance = light.radiance;
 #ifdef SHADOWS
         radiance *= lit_share(i, vertex_normal, l);
 #endif
         vec3 h = l + view;
-#if defined(SKIN) && defined(SKIN_REFLECTION)
+#ifdef HAIR
+        vec3 shares = strand_shares(strand, n, l, view);
+        entering += radiance * shares.x;
+        surface += pi * radiance * (shares.y + shares.z * sqrt(base.rgb));
+#elif defined(SKIN) && defined(SKIN_REFLECTION)
         entering += (1.0 - skin_intensity * specular_albedo(n_l, skin_rough).x) * radiance * n_l;
         // radiance is irradiance / pi: Lambert's 1 / pi cancels, the specular term keeps pi.
         surface += pi * skin_intensity * skin_specular(n, h, view, skin_rough) * radiance * n_l;
@@ -202,10 +257,19 @@ void main() {
         h = unit_or(h, n);
         vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - clamp(dot(view, h), 0.0, 1.0), 5.0);
         float specular = specular_ggx(n_l, n_v, clamp(dot(n, h), 0.0, 1.0), roughness * roughness);
+#ifdef EYE
+        entering += (1.0 - fresnel) * radiance * max(dot(inner, l), 0.0) * lids;
+#else
         entering += (1.0 - fresnel) * radiance * n_l;
+#endif
         surface += pi * specular * fresnel * radiance * n_l;
 #endif
     }
+#ifdef MOUTH
+    float inside = mouth_visibility(position_world);
+    entering *= inside;
+    surface *= inside;
+#endif
     vec3 emitted = emissive_linear.rgb;
 #ifdef EMISSIVE_MAP
     emitted *= texture(emissive_map, texture_uv[4]).rgb;

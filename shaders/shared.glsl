@@ -16,6 +16,10 @@
 // Thickness at which the table of T(s) ends: at 10 mm less than 1.3 % of red passes and nothing of the rest.
 #define BLUSH_TRANSMITTANCE_END_MM 10.0
 
+// Sides of the grid in which the exposure is metered; taps of the blur of the depth of field, at most.
+#define BLUSH_EXPOSURE_CELLS 32
+#define BLUSH_MOST_BLUR_TAPS 81
+
 // Maps of blood that act at once, at most.
 #define BLUSH_MOST_BLOOD_MAPS 32
 
@@ -37,6 +41,11 @@
 #define BLUSH_POSITIONS_BINDING 0
 #define BLUSH_FIRST_TRIANGLE_BINDING 1
 #define BLUSH_TRIANGLES_BINDING 2
+
+// Storage block of the shading of eyes: the finished surface's positions.
+#define BLUSH_SURFACE_POSITIONS_BINDING 0
+// Vertices along the edge of each lid.
+#define BLUSH_LID_POINTS 12
 
 // Storage block of the joints.
 #define BLUSH_JOINTS_BINDING 0
@@ -125,6 +134,14 @@ BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     vec4 skin;                    // x: millimetres a world unit; y: share of the albedo before the diffusion
                                   // z: roughness, w: intensity of the surface reflection
     vec4 translucency;            // x: strength; y: mm that a point is drawn in along its normal; zw unused
+    vec4 parts;                   // x: strength of the lids' shade on the eye; y: of the iris's depth
+                                  // z: of the darkness in the mouth; w: roughness of the eye's film of tears
+    vec4 mouth_front;             // xyz: a place on the plane before the teeth; w unused
+    vec4 mouth_forward;           // xyz: unit vector out of the mouth; w unused
+    vec4 eyes[2];                 // xyz: centre; w: radius, world units
+    mat4 world_from_lids;
+    ivec4 eye_data;               // x: 1 when the eyes are known; yz: vertices on the eyes' poles; w: 1 with lid_points
+    ivec4 lid_points[BLUSH_LID_POINTS];  // vertices: upper and lower lid of the first eye, of the second
     ivec4 counts;                 // x: lights; yzw unused
     Light lights[BLUSH_MOST_LIGHTS];
 };

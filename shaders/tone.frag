@@ -4,7 +4,9 @@
 
 in vec2 screen_uv;
 layout(binding = BLUSH_SCENE_COLOR_UNIT) uniform sampler2D scene_color;
+layout(binding = 1) uniform sampler2D log2_metered;  // one texel: log2 of the automatic exposure
 layout(location = 0) uniform float exposure;
+layout(location = 1) uniform bool metered;
 layout(location = 0) out vec4 display_srgb;
 
 // Filmic curve of Hable (2010), as jimenez-2012, 8.3, uses it: shoulder 0.15, linear strength 0.50, linear angle 0.10,
@@ -19,6 +21,10 @@ const float exposure_bias = 2.0;
 
 void main() {
     vec4 scene = texelFetch(scene_color, ivec2(gl_FragCoord.xy), 0);
-    vec3 mapped = filmic(exposure_bias * exposure * max(scene.rgb, vec3(0.0))) / filmic(vec3(white));
+    float factor = exposure_bias * exposure;
+    if (metered) factor *= exp2(texelFetch(log2_metered, ivec2(0), 0).r);
+    // What is not a number becomes black; the curve rises to its end far beyond what is white.
+    vec3 radiance = mix(vec3(0.0), min(factor * scene.rgb, vec3(1e6)), greaterThan(scene.rgb, vec3(0.0)));
+    vec3 mapped = filmic(radiance) / filmic(vec3(white));
     display_srgb = vec4(srgb_from_linear(mapped), scene.a);
 }

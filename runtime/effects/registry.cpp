@@ -5,10 +5,11 @@
 namespace blush {
 
 std::span<const Effect* const> effects() {
-    static const std::array<const Effect*, 15> all = {
-        &deformation_effect, &normals_effect,       &skinning_effect,     &wrinkles_effect,      &blood_effect,
-        &shadows_effect,     &translucency_effect,  &reflection_effect,   &environment_effect,   &scattering_effect,
-        &velocities_effect,  &multisampling_effect, &antialiasing_effect, &supersampling_effect, &reprojection_effect};
+    static const std::array<const Effect*, 20> all = {
+        &deformation_effect,   &normals_effect,        &skinning_effect,      &wrinkles_effect,     &blood_effect,
+        &shadows_effect,       &translucency_effect,   &reflection_effect,    &environment_effect,  &parts_effect,
+        &scattering_effect,    &depth_of_field_effect, &bloom_effect,         &exposure_effect,     &velocities_effect,
+        &multisampling_effect, &antialiasing_effect,   &supersampling_effect, &reprojection_effect, &film_grain_effect};
     return all;
 }
 

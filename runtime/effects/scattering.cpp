@@ -50,7 +50,7 @@ struct State {
     std::uint8_t kernel = 0;
     std::vector<KernelTap> taps;
     JitteredKernel jittered;
-    ResourceId first{}, second{}, third{}, stencil{};
+    ResourceId first{}, second{}, third{}, stencil{}, scene{};
 };
 
 double number(const CharacterState& state, std::string_view setting) {
@@ -109,7 +109,7 @@ void scatter(CharacterState& state, const FrameGraph& graph) {
         copy(input, input.albedo, wanted.albedo);
         copy(input, input.depth, wanted.depth);
     }
-    const GLuint scene = graph[state.resources.scene_color].handle;
+    const GLuint scene = graph[own.scene].handle;
     const auto handle = [&graph](ResourceId id) { return graph[id].handle; };
     switch (method_of(state)) {
         case ScatterMethod::separable: {
@@ -148,6 +148,7 @@ void declare(CharacterState& state) {
     TextureShape stencil = half;
     stencil.format = PixelFormat::stencil8;
     const ScatterMethod method = method_of(state);
+    own.scene = state.resources.scene_color;
     state.graph.pass("scatter", [&state](const FrameGraph& graph) { scatter(state, graph); })
         .reads(state.resources.skin_light)
         .reads(state.resources.skin_albedo)

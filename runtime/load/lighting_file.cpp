@@ -81,6 +81,10 @@ LightSource light_from(const json& object, const std::string& place, glm::vec3 c
                 static_cast<float>(glm::radians(number(object, "inner_degrees", 0.8 * outer, 0, outer, place)));
         }
     }
+    light.orbit_seconds = static_cast<float>(number(object, "orbit_seconds", 0, -1e6, 1e6, place));
+    if (light.orbit_seconds != 0 && std::abs(light.orbit_seconds) < 0.1F) {
+        refuse(place + ".orbit_seconds", "a light goes round in a tenth of a second at least");
+    }
     const auto casts = object.find("casts_shadow");
     if (casts != object.end()) {
         if (!casts->is_boolean()) refuse(place + ".casts_shadow", "it is neither true nor false");
@@ -108,9 +112,17 @@ Result<Lighting> named_lighting(std::string_view name) {
         lighting.lights = {from({-1, 0.25F, 0.15F}, {2.2F, 2.1F, 2.0F})};
     } else if (name == "behind") {
         lighting.lights = {from({0.25F, 0.3F, -1}, {6, 5.8F, 5.5F}), from({-0.5F, 0.2F, 1}, {0.12F, 0.14F, 0.18F})};
+    } else if (name == "orbit") {
+        constexpr float minute_seconds = 60;
+        // Ears need a light behind them that is several times as bright as the one in front.
+        lighting.lights = {from({-0.3F, 0.3F, 1}, {2.9F, 2.8F, 2.65F}), from({0.25F, 0.35F, 1}, {0.7F, 0.7F, 0.74F})};
+        lighting.lights[0].orbit_seconds = minute_seconds;
+        lighting.lights[1].casts_shadow = false;
+        lighting.sky_radiance_linear = {0.16F, 0.17F, 0.19F};
+        lighting.ground_radiance_linear = {0.06F, 0.055F, 0.05F};
     } else {
         return Error{"there is no lighting \"" + std::string(name) +
-                     "\" (there are: front, side, behind; or a .json file)"};
+                     "\" (there are: front, side, behind, orbit; or a .json file)"};
     }
     return lighting;
 }
@@ -127,6 +139,7 @@ Result<Lighting> read_lighting(const std::filesystem::path& path, const Bounds& 
         const json root = json::parse(text, nullptr, false);
         if (root.is_discarded() || !root.is_object()) return Error{path.string() + ": not a JSON object"};
         Lighting lighting;
+        lighting.orbit_centre_world = head.centre();
         if (root.contains("sky")) lighting.sky_radiance_linear = radiance(root, "sky", "root");
         if (root.contains("ground")) lighting.ground_radiance_linear = radiance(root, "ground", "root");
         const auto lights = root.find("lights");

@@ -7,6 +7,7 @@
 
 #include "runtime/appearance_gpu.h"
 #include "runtime/draw_face.h"
+#include "runtime/effects/parts.h"
 #include "runtime/environment_map.h"
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
@@ -29,10 +30,11 @@ std::uint32_t frame_bits(const CharacterState& state) {
     }
     if (state.on(blood_effect)) bits |= shade_blood;
     if (state.on(environment_effect)) bits |= shade_environment;
+    if (state.on(parts_effect)) bits |= parts_bits(state);
     return bits;
 }
 
-shared::FrameBlock frame_block(const CharacterState& state) {
+shared::FrameBlock frame_block(CharacterState& state) {
     const Camera& camera = state.camera;
     shared::FrameBlock block{};
     block.clip_from_world = camera.clip_from_view * camera.view_from_world;
@@ -48,6 +50,7 @@ shared::FrameBlock frame_block(const CharacterState& state) {
     block.skin = {static_cast<float>(state.millimetres_a_unit), number(scattering_effect, "albedo_before"),
                   number(reflection_effect, "roughness"), number(reflection_effect, "intensity")};
     block.translucency = {number(translucency_effect, "strength"), number(translucency_effect, "drawn_in_mm"), 0, 0};
+    if (state.on(parts_effect)) write_parts(state, block);
     block.counts.x = static_cast<int>(state.shader_lights.size());
     std::ranges::copy(state.shader_lights, block.lights);
     return block;
@@ -75,7 +78,7 @@ void draw_primitive(CharacterState& state, const Primitive& primitive, std::size
     const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : state.face.materials.size();
     const bool double_sided = material >= 0 && state.face.materials[index].double_sided;
     state.model.bind_draw(draw_index);
-    state.model.bind_material(state.face, material, state.skin_material[index], bits);
+    state.model.bind_material(state.face, material, state.material_kind[index], bits);
     if (double_sided) {
         glDisable(GL_CULL_FACE);
     } else {
@@ -120,7 +123,7 @@ void bind_targets(CharacterState& state, const FrameGraph& graph) {
 
 void shade(CharacterState& state, const FrameGraph& graph) {
     const std::uint32_t bits = frame_bits(state);
-    [[maybe_unused]] const Status prepared = state.model.prepare(state.face, state.skin_material, bits);
+    [[maybe_unused]] const Status prepared = state.model.prepare(state.face, state.material_kind, bits);
     assert(prepared && "shade: a permutation of face.frag does not compile");
     bind_targets(state, graph);
 
@@ -130,6 +133,7 @@ void shade(CharacterState& state, const FrameGraph& graph) {
     glBindBufferBase(GL_UNIFORM_BUFFER, BLUSH_FRAME_BINDING, state.model.frame_block.name());
     state.model.bind_surface(*state.surface);
     bind_maps(state, bits);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BLUSH_SURFACE_POSITIONS_BINDING, state.surface->positions.name());
 
     glEnable(GL_DEPTH_TEST);
     draw_nodes(state, false, bits);

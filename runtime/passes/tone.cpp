@@ -1,5 +1,7 @@
 /// The end of a picture: radiance to display values (filmic curve, sRGB), or as it is.
 
+#include <cmath>
+
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
 
@@ -11,10 +13,16 @@ void declare_tone(CharacterState& state, ResourceId to) {
         glUseProgram(state.tone_program.name());
         glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[from].handle);
         glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
-        glUniform1f(0, state.view->exposure);
+        const bool metered = state.on(exposure_effect);
+        if (metered) glBindTextureUnit(1, graph[state.resources.log2_exposure].handle);
+        // Without metering, the stops that the exposure is set to; with it they are in what was metered.
+        const double stops = metered ? 0 : state.settings.number(exposure_effect.name, "stops");
+        glUniform1f(0, state.view->exposure * static_cast<float>(std::exp2(stops)));
+        glUniform1i(1, metered ? 1 : 0);
         draw_screen(state);
     };
     state.graph.pass("tone", tone).reads(state.resources.scene_color).writes(to);
+    if (state.on(exposure_effect)) state.graph.reads(state.resources.log2_exposure);
 }
 
 void declare_copy(CharacterState& state, ResourceId from, ResourceId to) {

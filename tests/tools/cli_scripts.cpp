@@ -52,14 +52,26 @@ TEST_F(Cli, AScriptIsPlayedToItsEnd) {
     EXPECT_EQ(ran.errors.find("begins"), ran.errors.rfind("begins")) << "finding the end prints nothing";
 }
 
+TEST_F(Cli, WordsStandInThePictureUnlessTheyAreLeftOut) {
+    write("words.lua", "say('Hello there', {over = 1})");
+    write("silence.lua", "wait(1)");
+    const std::string play = "play face.glb --life off --to 0 --size 96x96 ";
+    expect_works(play + "--script words.lua -o 'said%d.png'");
+    expect_works(play + "--script words.lua --no-captions -o 'left_out%d.png'");
+    expect_works(play + "--script silence.lua -o 'silent%d.png'");
+    expect_same("left_out0.png", "silent0.png");
+    EXPECT_NE(bytes_of("said0.png"), bytes_of("silent0.png"));
+}
+
 TEST_F(Cli, BadScriptsAreNamed) {
     write("syntax.lua", "feel('jawOpen', 1");
     write("name.lua", "wait(0.2)\nfeel('jawOpne', 1)");
     write("endless.lua", "\nwhile true do end");
     const std::string evaluate = "evaluate face.glb -o x.ply --at 1 --script ";
-    expect_refused(evaluate + "nothing.lua",
-                   "--script nothing.lua: neither a file nor shipped (there are: conversation, fear_into_anger, idle, "
-                   "laughter, poke, shy_smile)");
+    expect_refused(
+        evaluate + "nothing.lua",
+        "--script nothing.lua: neither a file nor shipped (there are: a_minute, conversation, fear_into_anger, idle, "
+        "laughter, poke, shy_smile)");
     expect_refused(evaluate + "syntax.lua", "syntax.lua:1: ')' expected near <eof>");
     expect_refused(evaluate + "name.lua",
                    "name.lua:2: feel: the face has no control 'jawOpne' (did you mean 'jawOpen'?)");

@@ -87,8 +87,23 @@ TEST_F(Cli, LightsComeFromFilesAndByName) {
     expect_works("render face.glb --size 24x24 --lights lights.json -o lit.png");
     expect_works("render face.glb --size 24x24 --lights behind -o behind.png");
     EXPECT_NE(bytes_of("lit.png"), bytes_of("behind.png"));
+    // Half an orbit turns a light from the front to the back, a whole one back again.
+    const std::string light = R"({"lights": [{"kind": "directional", "radiance": [1, 1, 1], "from": )";
+    write("orbit.json", light + R"([0.6, 0.1, 0.8], "orbit_seconds": 2}]})");
+    write("half.json", light + R"([-0.6, 0.1, -0.8]}]})");
+    for (const char* at : {"0", "1", "2"}) {
+        const std::string moment(at);
+        expect_works("render face.glb --size 24x24 --lights orbit.json --at " + moment + " -o orbit" + moment + ".png");
+    }
+    expect_works("render face.glb --size 24x24 --lights half.json -o half.png");
+    expect_same("orbit0.png", "orbit2.png");
+    expect_same("orbit1.png", "half.png");
+    EXPECT_NE(bytes_of("orbit0.png"), bytes_of("half.png"));
+    write("fast.json", light + R"([1, 0, 0], "orbit_seconds": 0.01}]})");
+    expect_refused("render face.glb --size 24x24 --lights fast.json -o x.png",
+                   "--lights: fast.json: lights[0].orbit_seconds: a light goes round in a tenth of a second at least");
     expect_refused("render face.glb --size 24x24 --lights sunny -o x.png",
-                   "--lights: there is no lighting \"sunny\" (there are: front, side, behind; or a .json file)");
+                   "--lights: there is no lighting \"sunny\" (there are: front, side, behind, orbit; or a .json file)");
     write("bad.json", R"({"lights": [{"kind": "laser"}]})");
     expect_refused("render face.glb --size 24x24 --lights bad.json -o x.png",
                    "--lights: bad.json: lights[0].kind: it is none of directional, point, spot");

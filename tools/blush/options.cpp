@@ -155,7 +155,7 @@ Status PoseOptions::apply_settings(Character& character) const {
 }
 
 void LightOptions::add_to(CLI::App& command) {
-    command.add_option("--lights", lights, "front, side, behind, or a .json file (docs/skin.md)");
+    command.add_option("--lights", lights, "front, side, behind, orbit, or a .json file (docs/skin.md)");
     command.add_option("--environment", environment, "A radiance map, .hdr or .exr in equal longitudes and latitudes");
     command.add_option("--environment-turn", environment_turn_degrees, "Turns the environment about +Y, degrees")
         ->check(number_from(-360, 360));

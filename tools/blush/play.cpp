@@ -7,6 +7,7 @@
 
 #include "runtime/offscreen.h"
 #include "runtime/output_file.h"
+#include "tools/blush/captions.h"
 #include "tools/blush/interrupt.h"
 #include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"
@@ -27,6 +28,8 @@ struct Options {
     std::string face, performance, output, contact_sheet, size = "720x720";
     PoseOptions pose;
     PerformOptions perform;
+    LightOptions light;
+    bool captions = true;
     double frames_a_second = 30;
     float from_seconds = 0, to_seconds = -1, yaw_degrees = 0, pitch_degrees = 0;
     bool check_finite = false;
@@ -79,15 +82,23 @@ public:
         orbit.pitch_radians = glm::radians(options.pitch_degrees);
         view_.camera = orbit.camera(aspect);
         view_.check_finite = options.check_finite;
+        frames_a_second_ = options.frames_a_second;
+        if (options.captions && view_.output == Output::display_srgb) captions_.emplace(view_.height);
     }
+    /// Of the frames to come; stays alive as long as they are drawn. Null: three lights of a portrait.
+    void light_with(const Lighting* lighting) { view_.lighting = lighting; }
     /// alone: not the frame after the one drawn before.
     Result<Image> frame_at(double time_seconds, bool alone) {
         if (Status played = playback_.seek(time_seconds); !played) return played.error();
+        view_.time_seconds = time_seconds;
+        view_.frame_number = static_cast<std::uint32_t>(std::llround(time_seconds * frames_a_second_));
         const FrameReport& report = alone ? draw_alone(stage_.character, view_) : stage_.character.draw(view_);
         if (report.not_finite) {
             return Error{"--check-finite: at " + std::to_string(time_seconds) + " s " + report.not_finite->sentence()};
         }
-        return offscreen_.read();
+        Image image = offscreen_.read();
+        if (captions_) captions_->draw(playback_.performer().caption(), image);
+        return image;
     }
 
 private:
@@ -95,6 +106,8 @@ private:
     Playback& playback_;
     Offscreen& offscreen_;
     View view_;
+    double frames_a_second_ = 30;
+    std::optional<Captions> captions_;
 };
 
 Status write_frames(FrameSource& source, const Options& options, const Range& range) {
@@ -231,6 +244,9 @@ int play_to_files(Options options) {
                                                     linear ? Output::linear_hdr : Output::display_srgb);
     if (!offscreen) return fail(offscreen.error());
     FrameSource source(**stage, playback, *offscreen, options);
+    const Result<std::optional<Lighting>> lighting = options.light.lighting(character);
+    if (!lighting) return fail(lighting.error());
+    if (*lighting) source.light_with(&**lighting);
     if (!options.output.empty()) {
         if (Status written = write_frames(source, options, *range); !written) return fail(written.error());
         std::cout << options.output << ": " << range->frames << " frames of " << options.size << "\n";
@@ -262,6 +278,8 @@ void add_play(CLI::App& app, int& exit_status) {
     command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
     options->pose.add_to(*command);
     options->perform.add_to(*command);
+    options->light.add_to(*command);
+    command->add_flag("!--no-captions", options->captions, "Leave the words of the performance out of the picture");
     command->add_option("-o,--output", options->output, "out.mp4, out.gif, frames/%05d.png or frames/%05d.exr");
     command->add_option("--contact-sheet", options->contact_sheet, "A picture of eight moments");
     command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
@@ -277,9 +295,10 @@ void add_play(CLI::App& app, int& exit_status) {
             exit_status = fail(size.error());
             return;
         }
-        exit_status = run_viewer({options->face, options->performance, options->pose, options->perform, size->width,
-                                  size->height, options->from_seconds, options->to_seconds, options->frames_a_second,
-                                  options->check_finite, options->viewer_frames});
+        exit_status =
+            run_viewer({options->face, options->performance, options->pose, options->perform, options->light,
+                        options->captions, size->width, size->height, options->from_seconds, options->to_seconds,
+                        options->frames_a_second, options->check_finite, options->viewer_frames});
     });
 }
 

@@ -50,6 +50,7 @@ int render(const Options& options) {
     if (!lighting) return fail(lighting.error());
     if (*lighting) view.lighting = &**lighting;
     view.exposure = options.exposure;
+    view.time_seconds = options.perform.at_seconds;
     view.check_finite = options.check_finite;
     view.force_effects = options.force_effects;
 

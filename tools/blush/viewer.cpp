@@ -37,13 +37,14 @@ fs::path free_picture_name(const std::string& name) {
 class Viewer {
 public:
     Viewer(const ViewerOptions& options, Window& window, Panel& panel, Device device, Character& character,
-           Playback& playback, PlaybackClock clock)
+           Playback& playback, PlaybackClock clock, std::optional<Lighting> lighting)
         : options_(options),
           window_(window),
           panel_(panel),
           device_(std::move(device)),
           character_(character),
           playback_(playback),
+          lighting_(std::move(lighting)),
           name_(fs::path(options.face).stem().string()),
           performed_(playback.performer().timeline() ? playback.performer().timeline()->performance().name
                                                      : fs::path(options.perform.script).stem().string()) {
@@ -107,6 +108,10 @@ private:
         place.view.height = pixels.height;
         place.view.check_finite = options_.check_finite;
         place.view.timed = panel_.passes_timed();
+        if (lighting_) place.view.lighting = &*lighting_;
+        place.view.time_seconds = state_.clock.time_seconds;
+        place.view.frame_number =
+            static_cast<std::uint32_t>(std::max(state_.clock.time_seconds * options_.frames_a_second, 0.0));
         window_.home = character_.framing(aspect_of(place.free));
         if (state_.camera_is_home) state_.camera = window_.home;
         place.view.camera = state_.camera.camera(aspect_of(pixels));
@@ -133,7 +138,8 @@ private:
         drawn_time_seconds_ = state_.clock.time_seconds;
         const FrameReport& report = character_.draw(here.view);
         if (const int found = report_not_finite(report); found != 0) return found;
-        panel_.draw({character_, report, frame_milliseconds_}, state_);
+        const std::string_view words = options_.captions ? playback_.performer().caption() : std::string_view();
+        panel_.draw({character_, report, frame_milliseconds_, words}, state_);
         if (state_.screenshot_wanted) take_screenshot(here.free);
         state_.screenshot_wanted = false;
         set_title();
@@ -158,6 +164,8 @@ private:
         }
         View view = offscreen->view();
         view.camera = state_.camera.camera(aspect_of(size));
+        if (lighting_) view.lighting = &*lighting_;
+        view.time_seconds = state_.clock.time_seconds;
         draw_alone(character_, view);
         if (Status written = write_image(path, offscreen->read()); !written) {
             fail(written.error());
@@ -186,6 +194,7 @@ private:
     Device device_;
     Character& character_;
     Playback& playback_;
+    std::optional<Lighting> lighting_;  // of the options; else three lights of a portrait
     std::string name_, performed_, title_, complaint_;
     ViewerState state_;
     int frames_since_event_ = 0, frames_drawn_ = 0;
@@ -230,6 +239,8 @@ int run_viewer(const ViewerOptions& options) {
     if (!face) return fail(face.error());
     const Result<RigDescription> description = describe_rig(*face, options.pose);
     if (!description) return fail(description.error());
+    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face->path));
+    if (!appearance) return fail(appearance.error());
     const Result<PlaybackClock> clock = clock_of(*face, *description, options);
     if (!clock) return fail(clock.error());
 
@@ -239,6 +250,7 @@ int run_viewer(const ViewerOptions& options) {
     if (!device) return fail(device.error());
     Result<Character> character = Character::create(*device, *std::move(face), *description);
     if (!character) return fail(character.error());
+    character->set_appearance(*std::move(appearance));
     if (Status set = options.pose.apply(character->face(), character->rig(), character->controls()); !set) {
         return fail(set.error());
     }
@@ -250,9 +262,11 @@ int run_viewer(const ViewerOptions& options) {
         options.perform.parts(character->face(), character->rig(), character->controls(), *timeline);
     if (!parts) return fail(parts.error());
     Playback playback(*character, *std::move(parts));
+    Result<std::optional<Lighting>> lighting = options.light.lighting(*character);
+    if (!lighting) return fail(lighting.error());
     Result<std::unique_ptr<Panel>> panel = Panel::create((*window)->handle(), (*window)->text_scale());
     if (!panel) return fail(panel.error());
-    return Viewer(options, **window, **panel, *device, *character, playback, *clock).run();
+    return Viewer(options, **window, **panel, *device, *character, playback, *clock, *std::move(lighting)).run();
 }
 
 }  // namespace blush::tool

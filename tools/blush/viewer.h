@@ -11,6 +11,8 @@ struct ViewerOptions {
     std::string performance;  ///< as find_performance() takes it
     PoseOptions pose;
     PerformOptions perform;
+    LightOptions light;
+    bool captions = true;                     ///< the performance's words, over the picture
     std::uint32_t width = 960, height = 960;  ///< of the picture beside the panel, window coordinates
     float from_seconds = 0;
     float to_seconds = -1;        ///< negative: to the end

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/blush/captions.h"
+
 #include <imgui/backends/imgui_impl_glfw.h>
 #include <imgui/backends/imgui_impl_opengl3.h>
 #include <imgui/imgui.h>
@@ -44,6 +46,8 @@ Panel::Panel(float text_scale) : width_(usual_width * text_scale) {
     ImFontConfig font;
     font.SizePixels = std::round(usual_text_height * text_scale);
     io.Fonts->AddFontDefault(&font);
+    constexpr float caption_height = 26;
+    caption_font_ = add_caption_font(*io.Fonts, std::round(caption_height * text_scale));
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = 0;
     ImGui::GetStyle().ScaleAllSizes(text_scale);
@@ -75,8 +79,26 @@ void Panel::draw(const Shown& shown, ViewerState& state) {
         draw_controls(shown.character, state);
         ImGui::End();
     }
+    draw_caption(shown.caption, state.panel_shown);
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Panel::draw_caption(std::string_view caption, bool panel_shown) const {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float left = panel_shown ? std::min(width_, 0.5F * window.x) : 0;
+    ImDrawList* const list = ImGui::GetForegroundDrawList();
+    const float size = caption_font_->FontSize;
+    for (const CaptionLine& line : caption_lines(*caption_font_, caption, window.x - left, window.y)) {
+        const char* const end = line.text.data() + line.text.size();
+        const ImVec2 place(left + line.x, line.y);
+        constexpr float edge = 1.5F;
+        for (const ImVec2 off : {ImVec2(edge, edge), ImVec2(-edge, edge), ImVec2(edge, -edge), ImVec2(-edge, -edge)}) {
+            list->AddText(caption_font_, size, {place.x + off.x, place.y + off.y}, IM_COL32(0, 0, 0, 160),
+                          line.text.data(), end);
+        }
+        list->AddText(caption_font_, size, place, IM_COL32(255, 255, 255, 255), line.text.data(), end);
+    }
 }
 
 void Panel::draw_clock(PlaybackClock& clock) {

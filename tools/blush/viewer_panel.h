@@ -11,6 +11,7 @@
 #include "tools/blush/viewer_input.h"
 
 struct GLFWwindow;
+struct ImFont;
 
 namespace blush::tool {
 
@@ -30,6 +31,7 @@ public:
         Character& character;
         const FrameReport& report;
         float frame_milliseconds;
+        std::string_view caption;  ///< words to be seen; may be empty
     };
     /// Draws into the default framebuffer, and changes the state where the user touches the panel. Draws nothing while
     /// the panel is hidden.
@@ -40,6 +42,7 @@ public:
 
 private:
     explicit Panel(float text_scale);
+    void draw_caption(std::string_view caption, bool panel_shown) const;
     void draw_clock(PlaybackClock& clock);
     void draw_controls(Character& character, ViewerState& state);
     void draw_control(std::uint32_t control, Character& character, ViewerState& state);
@@ -47,6 +50,7 @@ private:
     void draw_passes(const FrameReport& report);
 
     float width_;
+    ImFont* caption_font_ = nullptr;
     bool passes_timed_ = false;
     std::string filter_;
     std::vector<std::uint32_t> listed_controls_;  // whose names the filter lets through

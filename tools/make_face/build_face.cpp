@@ -40,7 +40,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
                             .occluded = true};
     face.materials[eye] = {
         .name = "eye", .roughness = 0.1, .base_color_png = png(paint_eye(eye_texture_side, vec3(person.skin.eyes)))};
-    face.materials[tooth] = {.name = "teeth", .base_color_linear = {0.66, 0.58, 0.45, 1}, .roughness = 0.25};
+    face.materials[tooth] = {.name = "teeth", .roughness = 0.25, .base_color_png = png(paint_teeth(64))};
     face.materials[gum] = {.name = "gums", .roughness = 0.35, .base_color_png = png(paint_gum(128))};
     face.materials[tongue] = {.name = "tongue", .roughness = 0.4, .base_color_png = png(paint_tongue(128))};
     const auto strands = [&](const char* name, double darker, const Picture& picture) {
@@ -53,6 +53,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
                             .blended = true};
     };
     face.materials[hair] = strands("hair", 1, paint_hair_strands(512));
+    face.materials[hair].double_sided = false;  // its strips have triangles for both sides
     face.materials[brow] = strands("brows", 0.42, paint_brow_strands(128));
     face.materials[lash] = strands("lashes", 0.08, paint_lash_strands(128));
 

@@ -40,18 +40,23 @@ struct Layer {
     double top_height, side_height;  ///< of the strip's middle over the scalp, mm
     bool shaded;
     double width;
-    double above;  ///< millimetres above the hairline from where it grows
+    double above;         ///< millimetres above the hairline from where it grows
+    double reach = 1000;  ///< and up to where
+    double length = 1;    ///< factor on it
 };
 
 }  // namespace
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {320, 2.6, 1.4, true, 1.25, -2}, {320, 5.0, 2.2, true, 1.1, 0},   {320, 7.4, 3.0, false, 1.0, 2},
-        {280, 9.6, 3.8, false, 0.9, 5},  {130, 11.5, 4.6, false, 0.7, 8},
+        {320, 2.2, 1.3, true, 1.2, 1},           {320, 3.8, 2.0, true, 1.1, 2},
+        {900, 2.0, 1.2, false, 0.9, -2, 8, 0.7},  // the hairline: narrow and sparse
+        {300, 5.4, 2.7, false, 1.0, 4},          {270, 7.0, 3.4, false, 0.9, 6},
+        {110, 8.6, 4.2, false, 0.7, 9},
     };
     HairCards cards;
     Random random(5);
+    const Vec3 whorl_place = leave_head(skull_centre, hair_whorl());
     for (const Layer& layer : layers) {
         const double turn = random.between(0, 6.28);
         for (int n = 0; n < layer.directions; ++n) {
@@ -68,18 +73,21 @@ HairCards make_hair_cards(const HairStyle& style) {
             if (direction.y < -0.75) continue;
             Vec3 q = leave_head(skull_centre, glm::normalize(direction));
             const double above = above_hairline(q) - layer.above;
-            if (above < 0) continue;
+            if (above < 0 || above > layer.reach) continue;
 
             const double top = on_top(q);
             // Shorter at the hairline, where new hair grows, and toward the nape.
             const double grown = mix(0.62, 1, smooth_step(0, 16, above));
-            const double length = style.length * grown * mix(mix(17, 27, smooth_step(-50, 40, q.y)), 42, top) *
-                                  mix(0.82, 1.2, length_luck);
-            const double half_width = 0.5 * layer.width * mix(8.5, 12, top) * mix(0.8, 1.2, width_luck);
+            const double length = style.length * layer.length * grown *
+                                  mix(mix(17, 27, smooth_step(-50, 40, q.y)), 42, top) * mix(0.82, 1.2, length_luck);
+            const double half_width = 0.5 * layer.width * mix(8.5, 12, top) * mix(0.8, 1.2, width_luck) *
+                                      mix(0.5, 1, smooth_step(0, 14, above));
             const double raised = style.lift * lift_luck * mix(layer.side_height, layer.top_height, top) *
-                                  mix(0.45, 1, smooth_step(0, 22, above));
+                                  mix(0.45, 1, smooth_step(0, 22, above)) *
+                                  (1 - 0.45 * bell(glm::distance(q, whorl_place), 30));
             const int segments = top > 0.5 ? 5 : 3;
-            const ClumpArea area = hair_clump(clump, layer.shaded);
+            // At the hairline nothing lies above that would shade it.
+            const ClumpArea area = hair_clump(clump, layer.shaded && above > 12);
             const double left = flipped ? area.right : area.left, right = flipped ? area.left : area.right;
             const Vec3 root = q;
             const auto first = static_cast<Index>(cards.mesh.positions.size());
@@ -106,6 +114,7 @@ HairCards make_hair_cards(const HairStyle& style) {
             for (Index s = 0; s < static_cast<Index>(segments); ++s) {
                 const Index a = first + 2 * s;
                 cards.mesh.add_quad(a, a + 1, a + 3, a + 2);
+                cards.mesh.add_quad(a, a + 2, a + 3, a + 1);
             }
         }
     }

@@ -17,7 +17,8 @@ struct HairCards {
     std::vector<Vec3> roots;  ///< of each vertex, where its strip grows out of the scalp
 };
 
-/// From the innermost layer to the outermost, the order in which they blend over each other.
+/// From the innermost layer to the outermost, the order in which they blend over each other. Every strip has triangles
+/// for both sides, so that its back is shaded as the head of hair is, too, and not as the back of a strip.
 HairCards make_hair_cards(const HairStyle& style = {});
 
 }  // namespace blush::make_face

@@ -47,12 +47,12 @@ double neck_and_shoulders(const Vec3& p, double d) {
     double chest = join(ellipsoid(p, {0, -296, -34}, {165, 112, 80}), ellipsoid(p, {118, -262, -44}, {70, 62, 52}), 30);
     chest = join(chest, ellipsoid(p, {62, -236, -38}, {78, 52, 46}), 30);  // what fills the shoulder
     const double clavicle =
-        join(cone(p, {14, -203, 36}, {70, -198, 25}, 6, 4.8), cone(p, {70, -198, 25}, {150, -192, -22}, 4.8, 7), 10);
+        join(cone(p, {18, -206, 33}, {70, -199, 26}, 4.5, 5), cone(p, {70, -199, 26}, {150, -192, -22}, 5, 7), 10);
     chest = join(chest, clavicle, 9);
     n = join(n, chest, 26);
     n = join(n, cone(p, {50, -48, -22}, {34, -120, -8}, 8, 8), 14);  // sternocleidomastoid
-    n = join(n, cone(p, {34, -120, -8}, {13, -198, 15}, 8, 4), 22);
-    n = carve(n, ellipsoid(p, {0, -196, 39}, {9, 10, 12}), 10);   // sternal notch
+    n = join(n, cone(p, {34, -120, -8}, {15, -196, 13}, 8, 5), 24);
+    n = carve(n, ellipsoid(p, {0, -199, 40}, {9, 9, 11}), 12);    // sternal notch
     n = carve(n, ellipsoid(p, {52, -186, 22}, {26, 8, 18}), 16);  // over the clavicle
     return join(d, n, 20);
 }
@@ -182,7 +182,7 @@ double lower_lid_height(double x) {
 double lip_line_y(double x) {
     const double t = std::clamp(std::abs(x) / landmark::mouth_corner_x, 0.0, 1.0);
     // The upper lip's tubercle dips in the middle, the line rises beside it and falls a little to the corner.
-    return landmark::stomion_y - 0.9 * bell(t, 0.22) + 0.8 * std::sin(pi * t) - 0.3 * t;
+    return landmark::stomion_y - 0.9 * bell(t, 0.22) + 0.6 * std::sin(pi * t) + 0.5 * t;
 }
 
 }  // namespace blush::make_face

@@ -104,49 +104,75 @@ struct Pigment {
     double shadow = 1;  ///< factor on the colour below it: where no light reaches
 };
 
+/// Red lips are an epidermis without its horny layer over many vessels.
+double lip_hemoglobin(const SkinTone& look) { return 0.040 + 2.2 * look.hemoglobin; }
+
+/// Turns skin to red lip by a share.
+void redden(Pigment& pigment, const Vec3& p, double lip, const SkinTone& look) {
+    const double furrow = 0.5 + 0.5 * noise({p.x / 0.8, p.y / 6.0, 4.5});
+    const double red = lip_hemoglobin(look) * (1 + 0.20 * fractal_noise(p / 3.0, 2)) * mix(0.85, 1.1, furrow);
+    pigment.hemoglobin = mix(pigment.hemoglobin, red, 0.94 * lip);
+    pigment.melanin += lip * (0.006 + 0.05 * look.melanin);
+    pigment.shadow *= 1 - 0.10 * lip;
+}
+/// Of closed lips, where they meet.
+double seam_shadow(double seam) { return 1 - 0.5 * seam; }
+
+/// From the lips' edge inward they stay lips for a while, then become the wet lining, which no light reaches.
+void line_mouth(Pigment& pigment, const Vec3& p, double depth, const SkinTone& look) {
+    redden(pigment, p, 1, look);
+    const double inside = smooth_step(0.02, 0.3, depth);
+    pigment.melanin = mix(pigment.melanin, 0.012, inside);
+    pigment.hemoglobin = mix(pigment.hemoglobin, 1.5 * lip_hemoglobin(look), inside);
+    pigment.shadow *= mix(seam_shadow(1), 0.035, smooth_step(0.1, 0.62, depth));
+    pigment.skin = smooth_step(0.3, 0.05, depth);
+}
+
+void line_lid(Pigment& pigment, bool upper, double depth, const SkinTone& look) {
+    pigment.melanin = mix(look.melanin * 0.85, 0.012, smooth_step(0, 0.3, depth));
+    pigment.hemoglobin = lip_hemoglobin(look) * mix(1.0, 1.5, smooth_step(0, 0.3, depth));
+    pigment.shadow = mix(1.0, 0.5, smooth_step(0.3, 0.9, depth));
+    if (!upper) return;
+    pigment.cover = 0.8 * smooth_step(0.45, 0.1, depth);  // lashes root in it, and it shades itself
+    pigment.over = linear_srgb(vec3(look.hair)) * 0.10;
+    pigment.shadow *= 0.55;
+}
+
+/// Hair on the scalp and under brows and lashes.
+void cover_with_hair(Pigment& pigment, const Vec3& p, const SkinTone& look) {
+    const double rim = std::max(0.85 * lid_rim(p, true), 0.35 * lid_rim(p, false));
+    const double root = std::max(rim, 0.62 * brow_cover(p)), scalp = hair_paint(p);
+    pigment.cover = std::max(root, scalp);
+    if (pigment.cover == 0) return;
+    pigment.over = linear_srgb(vec3(look.hair)) * (scalp >= root ? hair_shade(p) : 0.35);
+    pigment.skin = 1 - std::max(scalp, 0.6 * root);
+}
+
 Pigment pigment_at(const SurfaceTexel& texel, const SkinTone& look) {
     const Vec3 p = texel.place(), half = texel.half();
-    // Red lips are an epidermis without its horny layer over many vessels: a third of blood's full colour at 6 %.
-    const double lip_hemoglobin = 0.040 + 2.2 * look.hemoglobin;
+    const auto depth = static_cast<double>(texel.depth);
+    const double lip = texel.part == Part::skin ? lip_cover(p) : texel.part == Part::mouth_lining ? 1 : 0;
     Pigment result;
-    const double lip = texel.part == Part::skin ? lip_cover(p) : 0;
     result.melanin = look.melanin * melanin_factor(p, half, lip, look);
     result.hemoglobin = look.hemoglobin * hemoglobin_factor(texel, p, half);
-    if (texel.part == Part::mouth_lining || texel.part == Part::lid_lining) {
-        const bool mouth = texel.part == Part::mouth_lining;
-        const double depth = static_cast<double>(texel.depth);
-        result.melanin = mix(look.melanin * 0.85, 0.012, smooth_step(0, 0.3, depth));
-        result.hemoglobin = lip_hemoglobin * mix(1.0, 1.5, smooth_step(0, 0.3, depth));
-        result.shadow =
-            mouth ? mix(0.62, 0.035, smooth_step(0.06, 0.62, depth)) : mix(1.0, 0.5, smooth_step(0.3, 0.9, depth));
-        result.skin = mouth ? smooth_step(0.3, 0.05, depth) : 1;
-        return result;
-    }
-    if (texel.part == Part::ear) {
-        result.shadow = 1 - 0.55 * bell(half, ear_centre + Vec3(0, -3, 5), {9, 5, 5});
-        return result;
-    }
-    result.melanin *= 1 - 0.15 * lip_border(p);
-    result.hemoglobin *= 1 - 0.35 * lip_border(p);
-    result.melanin += mole_cover(p) * (0.07 + 0.6 * look.melanin);
-    if (lip > 0) {
-        const double furrow = 0.5 + 0.5 * noise({p.x / 0.8, p.y / 6.0, 4.5});
-        const double red = lip_hemoglobin * (1 + 0.20 * fractal_noise(p / 3.0, 2)) * mix(0.85, 1.1, furrow);
-        result.hemoglobin = mix(result.hemoglobin, red, 0.94 * lip);
-        result.melanin = mix(result.melanin, result.melanin + 0.006 + 0.05 * look.melanin, lip);
-        result.shadow *= 1 - 0.10 * lip;
-    }
-    result.shadow *= 1 - 0.72 * lip_seam(p);
-    result.shadow *= 1 - 0.93 * nostril(texel);
-
-    const Vec3 dark_hair = linear_srgb(vec3(look.hair)) * 0.35;
-    const double rim = std::max(0.85 * lid_rim(p, true), 0.35 * lid_rim(p, false));
-    const double brow = 0.42 * brow_cover(p);
-    const double scalp = hair_paint(p);
-    result.cover = std::max({rim, brow, scalp});
-    if (result.cover > 0) {
-        result.over = scalp >= std::max(rim, brow) ? linear_srgb(vec3(look.hair)) * hair_shade(p) : dark_hair;
-        result.skin = 1 - std::max(scalp, 0.6 * std::max(rim, brow));
+    switch (texel.part) {
+        case Part::mouth_lining:
+            line_mouth(result, p, depth, look);
+            break;
+        case Part::lid_lining:
+            line_lid(result, p.y > canthal_y(half.x), depth, look);
+            break;
+        case Part::ear:
+            result.shadow = 1 - 0.55 * bell(half, ear_centre + Vec3(0, -3, 5), {9, 5, 5});
+            break;
+        case Part::skin:
+            result.melanin *= 1 - 0.15 * lip_border(p);
+            result.hemoglobin *= 1 - 0.35 * lip_border(p);
+            result.melanin += mole_cover(p) * (0.07 + 0.6 * look.melanin);
+            if (lip > 0) redden(result, p, lip, look);
+            result.shadow *= seam_shadow(lip_seam(p)) * (1 - 0.93 * nostril(texel));
+            cover_with_hair(result, p, look);
+            break;
     }
     return result;
 }

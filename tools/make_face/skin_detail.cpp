@@ -38,31 +38,31 @@ double relief(const SurfaceTexel& texel) {
         // Pores: pits of 0.15 to 0.3 mm, a millimetre apart where they are widest.
         const double cell = 1.05;
         const double pit = smooth_step(0.42, 0.10, cell_distance(p / cell));
-        double skin = -0.060 * mix(0.25, 1.0, wide) * (1 - 0.85 * eye) * pit;
+        double skin = -0.125 * mix(0.22, 1.0, wide) * (1 - 0.85 * eye) * pit;
         // Primary lines: two families that cross, bent by a slow noise (Mac-Neil 1: skin relief is a net of rhombs).
-        const double bend = 1.6 * noise(p / 6.0);
-        const double u = p.x + 0.35 * p.z, v = p.y;
+        const double bend = 2.2 * noise(p / 5.0);
+        constexpr double head_radius = 76;  // so that u is a length along the skin, also on the sides of the face
+        const double u = head_radius * std::atan2(p.x, p.z + 12), v = p.y;
         const double mesh = mix(1.15, 0.75, std::max(eye, 0.6 * wide));
-        const double across = noise({(0.80 * u + 0.60 * v) / mesh + bend, (0.80 * v - 0.60 * u) / (4.5 * mesh), 3.5});
-        const double other = noise({(0.74 * u - 0.67 * v) / mesh - bend, (0.74 * v + 0.67 * u) / (4.5 * mesh), 9.5});
-        skin += (0.020 + 0.010 * eye) * (furrow(across, 0.5, 2) + furrow(other, 0.5, 2));
+        const double across = noise({(0.80 * u + 0.60 * v) / mesh + bend, (0.80 * v - 0.60 * u) / (2.3 * mesh), 3.5});
+        const double other = noise({(0.74 * u - 0.67 * v) / mesh - bend, (0.74 * v + 0.67 * u) / (2.3 * mesh), 9.5});
+        skin += (0.032 + 0.016 * eye) * (furrow(across, 0.5, 2) + furrow(other, 0.5, 2));
         // The forehead's fine lines lie across it; those about the eye run out from its corner.
-        skin += 0.030 * forehead * furrow(noise({p.x / 16, v / 1.7 + 0.6 * noise(p / 9.0), 1.5}), 0.4, 2);
+        skin += 0.055 * forehead * furrow(noise({u / 16, v / 1.7 + 0.6 * noise(p / 9.0), 1.5}), 0.4, 2);
         const Vec3 from_corner = half - Vec3(44, -2, 62);
         const double fan = std::atan2(from_corner.y, from_corner.x + 8);
-        skin += 0.030 * bell(from_corner, Vec3(0), {14, 12, 16}) *
+        skin += 0.060 * bell(from_corner, Vec3(0), {14, 12, 16}) *
                 furrow(noise({fan * 9, glm::length(from_corner) / 9, 6.5}), 0.35, 2);
-        skin +=
-            0.045 * smooth_step(-105, -122, p.y) * furrow(noise({p.x / 22, v / 4.2 + noise(p / 15.0), 2.5}), 0.25, 2);
+        skin += 0.045 * smooth_step(-105, -122, p.y) * furrow(noise({u / 22, v / 4.2 + noise(p / 15.0), 2.5}), 0.25, 2);
         // Slow unevenness: no skin is a smooth shell.
-        skin += 0.050 * noise(p / 3.4) + 0.016 * noise(p / 1.2);
+        skin += 0.075 * noise(p / 3.4) + 0.035 * noise(p / 1.3);
         h = skin * (1 - lip);
     }
     if (lip > 0) {
         const double bend = 0.5 * noise(p / 3.0);
         const double upright = noise({p.x / 0.85 + bend, p.y / 7.0, 4.5}),
                      finer = noise({p.x / 0.42 - bend, p.y / 3.5, 8.5});
-        h += lip * (0.075 * furrow(upright, 0.42, 1.6) + 0.030 * furrow(finer, 0.4, 2) + 0.02 * noise(p / 1.4));
+        h += lip * (0.12 * furrow(upright, 0.42, 1.6) + 0.05 * furrow(finer, 0.4, 2) + 0.02 * noise(p / 1.4));
     }
     return h;
 }
@@ -118,7 +118,7 @@ Picture paint_roughness(const SurfaceTexels& texels) {
             seen *= 1 - 0.75 * nostril(texel);
             seen *= 1 - 0.5 * lip_seam(p);
             // Under the fringe and the hair at the temples.
-            seen *= 1 - 0.45 * smooth_step(-20, 4, above_hairline(p)) * (1 - scalp) - 0.5 * scalp;
+            seen *= 1 - 0.45 * smooth_step(-20, 4, above_hairline(p)) * (1 - scalp) - 0.4 * scalp;
             seen *= 1 - 0.35 * bell(half, {31, 9, 80}, {15, 4, 9}) - 0.3 * bell(half, {17, -1, 79}, {4, 5, 6});
         }
         if (texel.part == Part::ear) seen *= 1 - 0.5 * bell(half, landmark::ear_centre + Vec3(0, -3, 5), {9, 6, 6});

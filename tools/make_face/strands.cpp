@@ -112,11 +112,11 @@ Picture paint_brow_strands(int side) {
     for (int n = 0; n < hairs; ++n) {
         StrandShape s;
         s.root_x = side * (0.14 + 0.72 * (n + random.between(0.1, 0.9)) / hairs);
-        s.first_y = side * random.between(0, 0.12);
+        s.first_y = side * random.between(0, 0.3);
         s.length = side * random.between(0.68, 0.99) - s.first_y;
         s.lean = side * random.between(-0.10, 0.10);
         s.wave = side * random.between(-0.02, 0.02);
-        s.half_width = side / 128.0 * random.between(2.6, 3.6);
+        s.half_width = side / 128.0 * random.between(3.4, 4.6);
         s.brightness = random.between(0.7, 1.0);
         draw(canvas, s, 1.0, 1.0);
     }

@@ -40,14 +40,18 @@ Picture paint_eye(int side, const Vec3& iris_color) {
         // Sclera: bluish beside the iris, yellower and redder toward the corners, with veins that thin out inward.
         Color sclera =
             blend(Color(0.80, 0.795, 0.79), Color(0.79, 0.745, 0.70), smooth_step(limbus * 1.1, limbus * 2.3, r));
-        const double corner = smooth_step(limbus * 1.3, limbus * 2.8, std::abs(px));
+        const double corner = smooth_step(limbus * 1.2, limbus * 2.3, std::abs(px));
         sclera = blend(sclera, Color(0.70, 0.47, 0.43), 0.75 * corner);
         sclera = blend(sclera, Color(0.62, 0.50, 0.47), 0.6 * smooth_step(limbus * 1.6, limbus * 2.8, r));
         const Vec3 q(px * 7 + 0.6 * noise({px * 9, py * 9, 2.5}), py * 7 + 0.6 * noise({px * 9, py * 9, 7.5}), 0.5);
-        const double thick = smooth_step(0.055, 0.0, line(q)) * smooth_step(limbus * 1.25, limbus * 2.2, r);
-        const double thin = smooth_step(0.06, 0.0, line(q * 2.3)) * smooth_step(limbus * 1.1, limbus * 1.9, r);
+        const double thick = smooth_step(0.10, 0.0, line(q)) * smooth_step(limbus * 1.15, limbus * 2.0, r);
+        const double thin = smooth_step(0.12, 0.0, line(q * 2.3)) * smooth_step(limbus * 1.05, limbus * 1.7, r);
         sclera =
-            blend(sclera, Color(0.68, 0.26, 0.24), std::min(0.55, 0.42 * thick + 0.20 * thin) * mix(0.35, 1, corner));
+            blend(sclera, Color(0.68, 0.26, 0.24), std::min(0.55, 0.42 * thick + 0.20 * thin) * mix(0.6, 1, corner));
+
+        // The lids and their lashes shade the ball, the upper more than the lower.
+        sclera = sclera * (1 - 0.30 * smooth_step(limbus * 0.55, limbus * 1.15, py) -
+                           0.12 * smooth_step(limbus * 0.7, limbus * 1.3, -py));
 
         // Iris: fibres from the pupil outward, a warmer collarette with a ragged edge, crypts, a dark limbal ring.
         const double f = std::clamp((r - pupil) / (limbus - pupil), 0.0, 1.0);
@@ -63,10 +67,20 @@ Picture paint_eye(int side, const Vec3& iris_color) {
             iris * (1 - 0.35 * smooth_step(0.45, 0.8, noise({ca * 11, sa * 11, f * 4 + 9})) * smooth_step(0.2, 0.5, f));
         iris = iris * (1 + 0.25 * bell(f - collarette, 0.06));
         iris = blend(iris, iris_color * 0.16, smooth_step(0.74, 1.0, f));
+        iris = iris * (1 - 0.45 * smooth_step(limbus * 0.25, limbus * 0.95, py));  // under the upper lid
         iris = blend(iris, Color(0.02), smooth_step(0.10, 0.0, f));
 
         Color c = blend(iris, sclera, smooth_step(limbus * 0.93, limbus * 1.08, r));
         return blend(Color(0.010), c, smooth_step(pupil * 0.94, pupil * 1.05, r));
+    });
+}
+
+Picture paint_teeth(int side) {
+    return paint_square(side, [](double u, double v) {
+        const double back = 2 * std::abs(u - 0.5);
+        const double stain = 0.5 + 0.5 * noise({u * 40, v * 6, 0.5});
+        const Color ivory = blend(Color(0.80, 0.765, 0.69), Color(0.76, 0.70, 0.60), 0.6 * stain + 0.4 * back);
+        return ivory * mix(1, 0.30, smooth_step(0.18, 0.85, back));
     });
 }
 

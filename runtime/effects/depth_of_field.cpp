@@ -1,0 +1,227 @@
+/// Depth of field: what is out of focus is blurred by its circle of confusion, as a thin lens of real size makes it.
+
+#include "rig/depth_of_field.h"
+
+#include <array>
+#include <cmath>
+
+#include "rig/material_kind.h"
+#include "runtime/effects/camera_studies.h"
+#include "runtime/frame.h"
+#include "runtime/gl/shared_blocks.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<std::string_view, 3> sample_choices = {"25", "49", "81"};
+constexpr std::array<std::uint32_t, 3> sample_counts = {25, 49, 81};
+constexpr double sensor_height_mm = 24;  // of a 35 mm frame
+
+constexpr std::array<Setting, 5> settings = {{
+    {.name = "f_number",
+     .meaning = "focal length over the lens's opening: 1.4 is wide open, 16 nearly all sharp; 0: all sharp",
+     .highest = 1000},
+    {.name = "focal_length_mm",
+     .meaning = "of the lens, millimetres; 0: the one that gives the camera's field of view on a 35 mm frame",
+     .highest = 10000},
+    {.name = "focus_mm",
+     .meaning = "distance that is sharp, millimetres from the camera along its axis; 0: the eyes",
+     .highest = 1e9},
+    {.name = "largest_radius",
+     .meaning = "of a circle of confusion, of the picture's height",
+     .highest = 0.1,
+     .default_number = 0.03},
+    {"samples", "pixels that each one gathers", sample_choices, 1},
+}};
+
+struct DepthOfField {
+    gl::Program circles, circles_multisampled, tiles, gather;
+    bool eyes_known = false;
+    std::vector<SkinPart> eyes;  // by node; bounds in the mesh at rest
+    BlurRadius blur;
+    int tile_pixels = 1;
+    ResourceId from{}, radius{}, in_front{}, to{};
+};
+
+double number(const CharacterState& state, std::string_view setting) {
+    return state.settings.number(depth_of_field_effect.name, setting);
+}
+
+void find_eyes(const Face& face, DepthOfField& own) {
+    const std::vector<MaterialKind> kinds = material_kinds(face);
+    for (std::size_t n = 0; n < face.nodes.size(); ++n) {
+        if (face.nodes[n].mesh < 0) continue;
+        const Mesh& mesh = face.meshes[static_cast<std::size_t>(face.nodes[n].mesh)];
+        for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
+            const Primitive& primitive = face.primitives[mesh.first_primitive + p];
+            const std::size_t material =
+                primitive.material < 0 ? face.materials.size() : static_cast<std::size_t>(primitive.material);
+            if (kinds[material] != MaterialKind::eye || primitive.vertex_count == 0) continue;
+            Bounds bounds;
+            for (std::uint32_t v = 0; v < primitive.vertex_count; ++v) {
+                bounds.add(face.positions[primitive.first_vertex + v]);
+            }
+            own.eyes.push_back({n, bounds});
+        }
+    }
+    own.eyes_known = true;
+}
+
+/// Distance along the camera's axis of the corneas; without eyes, of the face's middle.
+double focus_on_eyes_mm(CharacterState& state) {
+    DepthOfField& own = state.own<DepthOfField>();
+    if (!own.eyes_known) find_eyes(state.face, own);
+    const auto depth = [&state](const glm::vec3& place_world) {
+        const glm::vec4 view = state.view->camera.view_from_world * glm::vec4(place_world, 1);
+        return static_cast<double>(-view.z) * state.millimetres_a_unit;
+    };
+    if (own.eyes.empty()) return depth(state.bounds.empty() ? glm::vec3(0) : state.bounds.centre());
+    constexpr double cornea_before_centre_mm = 12;  // half of an adult's eyeball (Bekerman et al. 2014)
+    double sum = 0;
+    for (const SkinPart& eye : own.eyes) {
+        sum += depth(glm::vec3(state.world_from_node[eye.node] * glm::vec4(eye.bounds.centre(), 1)));
+    }
+    return sum / static_cast<double>(own.eyes.size()) - cornea_before_centre_mm;
+}
+
+BlurRadius find_blur(CharacterState& state) {
+    const double scale = std::abs(static_cast<double>(state.view->camera.clip_from_view[1][1]));
+    ThinLens lens;
+    lens.f_number = number(state, "f_number");
+    // A field of view is a focal length for a sensor: tan(half of it) = half the sensor / focal length.
+    lens.focal_length_mm = number(state, "focal_length_mm");
+    lens.sensor_height_mm = sensor_height_mm;
+    if (lens.focal_length_mm > 0) {
+        lens.sensor_height_mm = 2 * lens.focal_length_mm / scale;
+    } else {
+        lens.focal_length_mm = 0.5 * sensor_height_mm * scale;
+    }
+    lens.focus_mm = number(state, "focus_mm");
+    if (lens.focus_mm == 0) lens.focus_mm = focus_on_eyes_mm(state);
+    const double height = state.view->height;
+    return blur_radius(lens, height, number(state, "largest_radius") * height);
+}
+
+Need need(const CharacterState& state) {
+    const auto off = [](std::string_view reason) {
+        return Need{.on = false, .reason = reason, .can_be_forced = false};
+    };
+    if (number(state, "f_number") == 0) return off("depth_of_field.f_number is 0");
+    const glm::mat4& clip = state.view->camera.clip_from_view;
+    if (clip[2][3] == 0 || !(std::abs(clip[1][1]) > 0) || !std::isfinite(clip[1][1]) || clip[3][2] == 0) {
+        return off("the camera is no perspective: it has no lens");
+    }
+    if (number(state, "largest_radius") * state.view->height < 0.5) {
+        return off("depth_of_field.largest_radius is less than half a pixel");
+    }
+    return {.on = true, .reason = "depth_of_field.f_number asks for it"};
+}
+
+void bind_texture(const FrameGraph& graph, GLuint unit, ResourceId id) {
+    glBindTextureUnit(unit, graph[id].handle);
+    glBindSampler(unit, 0);
+}
+
+void find_circles(CharacterState& state, const FrameGraph& graph) {
+    DepthOfField& own = state.own<DepthOfField>();
+    const bool multisampled = graph[state.resources.scene_depth].shape.samples > 1;
+    bind_output(state, graph, own.radius);
+    glUseProgram((multisampled ? own.circles_multisampled : own.circles).name());
+    bind_texture(graph, 0, state.resources.scene_depth);
+    glUniform3f(0, static_cast<float>(own.blur.scale_pixels), static_cast<float>(own.blur.focus_mm),
+                static_cast<float>(own.blur.largest_pixels));
+    const glm::mat4& clip = state.view->camera.clip_from_view;
+    glUniform3f(1, clip[2][2], clip[3][2], static_cast<float>(state.millimetres_a_unit));
+    draw_screen(state);
+}
+
+void find_tiles(CharacterState& state, const FrameGraph& graph) {
+    DepthOfField& own = state.own<DepthOfField>();
+    bind_output(state, graph, own.in_front);
+    glUseProgram(own.tiles.name());
+    bind_texture(graph, 0, own.radius);
+    glUniform1i(0, own.tile_pixels);
+    draw_screen(state);
+}
+
+void gather(CharacterState& state, const FrameGraph& graph) {
+    DepthOfField& own = state.own<DepthOfField>();
+    bind_output(state, graph, own.to);
+    glUseProgram(own.gather.name());
+    bind_texture(graph, 0, own.from);
+    bind_texture(graph, 1, own.radius);
+    bind_texture(graph, 2, own.in_front);
+    const std::vector<glm::vec2> taps =
+        blur_taps(sample_counts[state.settings.choice(depth_of_field_effect.name, "samples")]);
+    glUniform1i(0, own.tile_pixels);
+    glUniform1i(1, static_cast<GLint>(taps.size()));
+    glUniform2fv(2, static_cast<GLsizei>(taps.size()), &taps[0].x);
+    draw_screen(state);
+}
+
+void declare(CharacterState& state) {
+    DepthOfField& own = state.own<DepthOfField>();
+    static constexpr std::array<std::string_view, 1> multisampled = {"MULTISAMPLED"};
+    gl::require_program(own.circles, {"screen.vert", "circle_of_confusion.frag"});
+    gl::require_program(own.circles_multisampled, {"screen.vert", "circle_of_confusion.frag", multisampled});
+    gl::require_program(own.tiles, {"screen.vert", "blur_tiles.frag"});
+    gl::require_program(own.gather, {"screen.vert", "depth_of_field.frag"});
+    own.blur = find_blur(state);
+    // A circle reaches the tiles beside its own at most.
+    constexpr double least_tile = 8;
+    own.tile_pixels = static_cast<int>(std::ceil(std::max(own.blur.largest_pixels, least_tile)));
+
+    const auto tiles = [&own](std::uint32_t pixels) {
+        const auto tile = static_cast<std::uint32_t>(own.tile_pixels);
+        return (pixels + tile - 1) / tile;
+    };
+    TextureShape shape{PixelFormat::rgba16f, state.view->width, state.view->height, 1};
+    own.from = state.resources.scene_color;
+    own.to = state.graph.texture("scene colour, in focus", shape);
+    shape.format = PixelFormat::r32f;
+    own.radius = state.graph.texture("circles of confusion", shape);
+    own.in_front =
+        state.graph.texture("circles in front", {PixelFormat::r32f, tiles(shape.width), tiles(shape.height), 1});
+    state.graph.pass("circles of confusion", [&state](const FrameGraph& graph) { find_circles(state, graph); })
+        .reads(state.resources.scene_depth)
+        .writes(own.radius);
+    state.graph.pass("circles in front", [&state](const FrameGraph& graph) { find_tiles(state, graph); })
+        .reads(own.radius)
+        .writes(own.in_front);
+    state.graph.pass("depth of field", [&state](const FrameGraph& graph) { gather(state, graph); })
+        .reads(own.from)
+        .reads(own.radius)
+        .reads(own.in_front)
+        .writes(own.to);
+    state.resources.scene_color = own.to;
+}
+
+constexpr std::array<HardCase, 4> hard_cases = {{
+    {"a camera inside the face", "blurred as far as depth_of_field.largest_radius", [](Face&) {}, 0,
+     [](View& view) { view.camera.view_from_world = glm::mat4(1); }},
+    {"a face behind the camera", "the background", [](Face&) {}, 0,
+     [](View& view) { view.camera.view_from_world[3].z += 1e3F; }},
+    {"an orthographic camera", "left out: it has no lens", [](Face&) {}, 0,
+     [](View& view) {
+         glm::mat4 clip(1);
+         clip[2][2] = -0.01F;
+         view.camera.clip_from_view = clip;
+     }},
+    {"a frame of one pixel", "nothing to gather from", [](Face&) {}, 0,
+     [](View& view) { view.width = view.height = 1; }},
+}};
+
+}  // namespace
+
+const Effect depth_of_field_effect = {
+    .name = "depth_of_field",
+    .what = "what is out of focus is blurred",
+    .settings = settings,
+    .stage = Stage::scene,
+    .need = need,
+    .declare = declare,
+    .studies = depth_of_field_studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

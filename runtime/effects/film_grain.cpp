@@ -1,0 +1,70 @@
+/// Grain of film, on the finished picture.
+
+#include <array>
+
+#include "runtime/effects/camera_studies.h"
+#include "runtime/frame.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<Setting, 3> settings = {{
+    {.name = "strength",
+     .meaning = "standard deviation at middle grey, of display values from 0 to 1; 0: off",
+     .highest = 0.3},
+    {.name = "size", .meaning = "of a grain, pixels", .lowest = 1, .highest = 16, .default_number = 1},
+    {.name = "seed", .meaning = "of the pattern; a whole number", .highest = 65535},
+}};
+
+struct FilmGrain {
+    gl::Program program;
+};
+
+double number(const CharacterState& state, std::string_view setting) {
+    return state.settings.number(film_grain_effect.name, setting);
+}
+
+Need need(const CharacterState& state) {
+    const auto off = [](std::string_view reason) {
+        return Need{.on = false, .reason = reason, .can_be_forced = false};
+    };
+    if (number(state, "strength") == 0) return off("grain.strength is 0");
+    if (state.view->output == Output::linear_hdr) return off("the view asks for radiance, and film is a display");
+    return {.on = true, .reason = "grain.strength asks for it"};
+}
+
+void declare(CharacterState& state) {
+    gl::require_program(state.own<FilmGrain>().program, {"screen.vert", "film_grain.frag"});
+    const DisplayImages images = next_display(state);
+    const auto pass = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
+        bind_output(state, graph, to);
+        glUseProgram(state.own<FilmGrain>().program.name());
+        glBindTextureUnit(0, graph[from].handle);
+        glBindSampler(0, 0);
+        glUniform1f(0, static_cast<float>(number(state, "strength")));
+        glUniform1f(1, static_cast<float>(number(state, "size")));
+        constexpr std::uint32_t seed_step = 0x9e3779b9U;  // 2^32 over the golden ratio: seeds' frames do not meet
+        glUniform1ui(2, state.view->frame_number + seed_step * static_cast<std::uint32_t>(number(state, "seed")));
+        draw_screen(state);
+    };
+    state.graph.pass("film grain", pass).reads(images.from).writes(images.to);
+}
+
+constexpr std::array<HardCase, 1> hard_cases = {{
+    {"a frame of one pixel", "one grain", [](Face&) {}, 0, [](View& view) { view.width = view.height = 1; }},
+}};
+
+}  // namespace
+
+const Effect film_grain_effect = {
+    .name = "grain",
+    .what = "grain of film over the finished picture",
+    .settings = settings,
+    .stage = Stage::display,
+    .need = need,
+    .declare = declare,
+    .studies = film_grain_studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

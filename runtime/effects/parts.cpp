@@ -1,0 +1,172 @@
+/// Eyes, the inside of the mouth, and hair: each with a shading of its own, simpler than the skin's. Shading does it
+/// (shaders/parts.glsl). None of them gives light to the skin's diffusion or takes any from it.
+
+#include "runtime/effects/parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "rig/eye_sockets.h"
+#include "runtime/effect.h"
+#include "runtime/effects/frame_study.h"
+
+namespace blush {
+namespace {
+
+static_assert(lid_point_count == BLUSH_LID_POINTS);
+
+constexpr std::array<std::string_view, 2> eye_choices = {"wet", "plain"};
+constexpr std::array<std::string_view, 2> hair_choices = {"strands", "plain"};
+constexpr std::array<Setting, 6> settings = {{
+    {"eyes", "wet: a film of tears, the iris behind the cornea, shade below the lids; plain: as any other material",
+     eye_choices, 0},
+    {"hair",
+     "strands: the highlights of thin cylinders along the texture's v (Kajiya and Kay 1989, Marschner et al. 2003); "
+     "plain: as any other material",
+     hair_choices, 0},
+    {.name = "lid_shade", .meaning = "how dark the eye is below its lids", .highest = 1, .default_number = 0.75},
+    {.name = "iris_depth",
+     .meaning = "of the iris behind the cornea; 1: as in an eye",
+     .highest = 2,
+     .default_number = 1},
+    {.name = "mouth_shade", .meaning = "how dark the inside of the mouth is", .highest = 1, .default_number = 1},
+    {.name = "tear_roughness",
+     .meaning = "of the film of tears: a wider highlight for a larger one",
+     .lowest = 0.05,
+     .highest = 0.6,
+     .default_number = 0.14},
+}};
+
+struct Parts {
+    bool known = false;
+    EyeSockets sockets;
+    bool cornea_of_its_own = false;  // before an iris that lies deep already
+    std::size_t mouth_node = 0;
+    std::optional<glm::vec3> mouth_front;  // of the foremost tooth, mesh units
+};
+
+Parts& parts_of(CharacterState& state) {
+    Parts& own = state.own<Parts>();
+    if (own.known) return own;
+    own.known = true;
+    const Face& face = state.face;
+    own.sockets = find_eye_sockets(face, state.material_kind);
+    own.cornea_of_its_own = std::ranges::any_of(
+        face.materials, [](const Material& material) { return material.name.find("ornea") != std::string::npos; });
+    for (std::size_t n = 0; n < face.nodes.size(); ++n) {
+        if (face.nodes[n].mesh < 0) continue;
+        const Mesh& mesh = face.meshes[static_cast<std::size_t>(face.nodes[n].mesh)];
+        for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
+            const Primitive& primitive = face.primitives[mesh.first_primitive + p];
+            if (primitive.material < 0) continue;
+            if (state.material_kind[static_cast<std::size_t>(primitive.material)] != MaterialKind::mouth) continue;
+            for (std::uint32_t v = 0; v < primitive.vertex_count; ++v) {
+                const glm::vec3& place = face.positions[primitive.first_vertex + v];
+                if (own.mouth_front && own.mouth_front->z >= place.z) continue;
+                own.mouth_front = place;
+                own.mouth_node = n;
+            }
+        }
+    }
+    return own;
+}
+
+Need need(const CharacterState& state) {
+    const bool any = std::ranges::any_of(state.material_kind, [](MaterialKind kind) {
+        return kind == MaterialKind::eye || kind == MaterialKind::mouth || kind == MaterialKind::hair;
+    });
+    if (!any) {
+        return {.on = false, .reason = "no material is named as eyes, mouth or hair", .can_be_forced = false};
+    }
+    return {.on = true, .reason = "the face has eyes, a mouth or hair"};
+}
+
+std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
+    std::vector<Study> both;
+    for (const char* setting : {"parts.eyes", "parts.hair"}) {
+        const std::string own = std::string(setting) == "parts.eyes" ? "wet" : "strands";
+        auto one = frame_study(device, face, millimetres_a_unit, {setting, {own, "plain"}, 0, own, nullptr});
+        std::ranges::move(one, std::back_inserter(both));
+    }
+    return both;
+}
+
+/// Names the test face's only material as a part.
+template <int Kind>
+void name_part(Face& face) {
+    static constexpr std::array<const char*, 3> names = {"eye", "teeth", "hair"};
+    face.materials[0].name = names[Kind];
+    if (Kind == 2) face.materials[0].alpha_mode = AlphaMode::mask;
+}
+
+constexpr std::array<HardCase, 4> hard_cases = {{
+    {"a face that is an eye", "wet, without lids", name_part<0>},
+    {"a face that is a tooth", "darker to the back", name_part<1>},
+    {"a face of cut-out hair", "strands without a texture", name_part<2>},
+    {"an eye without size", "no place for an iris",
+     [](Face& face) {
+         face.materials[0].name = "eye";
+         for (glm::vec3& position : face.positions) position = glm::vec3(0);
+     }},
+}};
+
+}  // namespace
+
+std::uint32_t parts_bits(const CharacterState& state) {
+    std::uint32_t bits = shade_mouth;
+    if (state.settings.choice(parts_effect.name, "eyes") == 0) bits |= shade_eye;
+    if (state.settings.choice(parts_effect.name, "hair") == 0) bits |= shade_hair;
+    return bits;
+}
+
+void write_parts(CharacterState& state, shared::FrameBlock& block) {
+    const Parts& own = parts_of(state);
+    const auto number = [&state](std::string_view setting) {
+        return static_cast<float>(state.settings.number(parts_effect.name, setting));
+    };
+    block.parts = {number("lid_shade"), own.cornea_of_its_own ? 0 : number("iris_depth"), number("mouth_shade"),
+                   number("tear_roughness")};
+    if (own.mouth_front) {
+        const glm::mat4& world = state.world_from_node[own.mouth_node];
+        const glm::vec3 forward(world[2]);
+        const float length = glm::length(forward);
+        block.mouth_front = world * glm::vec4(*own.mouth_front, 1);
+        block.mouth_forward = glm::vec4(length > 0 ? forward / length : glm::vec3(0, 0, 1), 0);
+    }
+    const EyeSockets& sockets = own.sockets;
+    if (sockets.eyes.size() != 2) return;
+    block.eye_data = {1, static_cast<int>(sockets.eyes[0].pole), static_cast<int>(sockets.eyes[1].pole),
+                      sockets.lids.size() == 2 ? 1 : 0};
+    for (std::size_t e = 0; e < 2; ++e) {
+        const Eyeball& eye = sockets.eyes[e];
+        const glm::mat4& world = state.world_from_node[eye.node];
+        block.eyes[e] = world * glm::vec4(eye.centre, 1);
+        block.eyes[e].w = eye.radius * glm::length(glm::vec3(world[0]));
+    }
+    if (sockets.lids.size() != 2) return;
+    block.world_from_lids = state.world_from_node[sockets.lid_node];
+    for (std::size_t e = 0; e < 2; ++e) {
+        for (std::size_t k = 0; k < lid_point_count; ++k) {
+            const auto set = [&](std::size_t lid, std::uint32_t vertex) {
+                const std::size_t at = (2 * e + lid) * lid_point_count + k;
+                block.lid_points[at / 4][static_cast<glm::length_t>(at % 4)] = static_cast<int>(vertex);
+            };
+            set(0, sockets.lids[e].upper[k]);
+            set(1, sockets.lids[e].lower[k]);
+        }
+    }
+}
+
+const Effect parts_effect = {
+    .name = "parts",
+    .what = "eyes, mouth and hair are shaded each in their own way",
+    .settings = settings,
+    .stage = Stage::light,
+    .need = need,
+    .declare = [](CharacterState&) {},
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush
