@@ -123,7 +123,7 @@ Arriving arriving(int i) {
 // of a step one pixel wide. Which samples goes round from pixel to pixel, so that overlapping strands do not always hide
 // the same ones.
 void cover_samples(float opacity) {
-    gl_SampleMask[0] = -1;
+    gl_SampleMask[0] = (1 << max(gl_NumSamples, 1)) - 1;
     if (gl_NumSamples < 2 || alpha.x < 0.0) {
         if (opacity < alpha.x) discard;
         return;

@@ -1,13 +1,19 @@
 /// The face's surface: its colour follows from its pigments, its cards move with the skin, its maps have no seams and
 /// are the same from any number of threads.
 
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "rig/colour_difference.h"
+#include "runtime/appearance_file.h"
+#include "runtime/face_appearance.h"
+#include "runtime/face_file.h"
 #include "tools/make_face/brow_cards.h"
 #include "tools/make_face/build_face.h"
 #include "tools/make_face/expressions.h"
+#include "tools/make_face/face_command.h"
 #include "tools/make_face/hair.h"
 #include "tools/make_face/hair_cards.h"
 #include "tools/make_face/parallel.h"
@@ -78,6 +84,35 @@ TEST(Pigments, GiveTheBaseColourWithinItsEightBits) {
         EXPECT_LT(sum / (side * side), 0.3);
         EXPECT_LT(most, 1.0);  // half a step of 8 bits in the dark of the mouth
     }
+}
+
+TEST(Pigments, AreWrittenBesideTheFaceThatTheyColour) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(testing::TempDir()) / "blush_make_face_maps";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    FaceCommand command;
+    command.output = (folder / "head.glb").string();
+    command.vertices = 5'000;
+    command.texture_side = 64;
+    command.maps = true;
+    const Status written = command.run(fs::path(BLUSH_SOURCE_DIR) / "assets" / "presets");
+    ASSERT_TRUE(written) << written.error().message;
+    const Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(command.output));
+    ASSERT_TRUE(appearance) << appearance.error().message;
+    ASSERT_TRUE(appearance->pigments);
+    EXPECT_EQ(appearance->pigments->blood.names, hemoglobin_pattern_names);
+    const Result<Face> face = load_face(command.output);
+    ASSERT_TRUE(face) << face.error().message;
+    const Image& texture = face->images[static_cast<std::size_t>(face->materials[0].base_color_srgb.image)];
+    const ColourMap painted = *colour_map_of(texture, "texture"),
+                    again = recomposed(appearance->pigments->maps, table());
+    ASSERT_TRUE(painted.same_size(again));
+    double sum = 0;
+    for (std::size_t k = 0; k < again.values.size(); ++k)
+        sum += ciede2000_of_srgb_linear(again.values[k], painted.values[k]);
+    EXPECT_LT(sum / static_cast<double>(again.values.size()), 0.3) << "the residual is stored as half floats";
+    fs::remove_all(folder);
 }
 
 TEST(Pigments, HoldOnlyWhatTheirFilesCanStore) {

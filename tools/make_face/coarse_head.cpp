@@ -11,7 +11,7 @@ using namespace landmark;
 
 constexpr Vec3 neck_origin{0, -150, -33}, chest_origin{0, -262, -40};
 constexpr double neck_share = 0.62;  // of the rows from the chin to the cut
-constexpr double cut_elevation_front = radians(30), cut_elevation_side = radians(45), cut_elevation_back = radians(52);
+constexpr double cut_elevation_front = radians(30), cut_elevation_side = radians(39), cut_elevation_back = radians(56);
 constexpr double chin_elevation = radians(-49), brow_elevation = radians(28);
 
 Vec3 direction(double azimuth, double elevation) {

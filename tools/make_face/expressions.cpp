@@ -169,7 +169,7 @@ public:
             return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12, .sideways_mm = -1.0}) +
                    pulled(v, cheek_raise * 0.35);
         });
-        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 12, .lower_degrees = -3}); });
+        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 10, .lower_degrees = -3}); });
         add_whole("jawForward", [&](Index v) { return jaw_[v] * Vec3(0, -0.6, 6); });
         add_sides("jaw", [&](Index v) { return jaw_[v] * Vec3(7, 0, 0); });
         add_whole("jawOpen", [&](Index v) { return jaw_opened(rest(v), jaw_[v]) - rest(v); });
@@ -274,8 +274,26 @@ private:
         return Vec3(0);
     }
 
+    /// Lips and cheeks slide over the teeth and do not enter them; the lower ones go with the jaw.
+    void keep_off_teeth(const std::string& name, std::vector<Vec3>& deltas) const {
+        constexpr double clearance_mm = 0.4;
+        const double jaw = name == "jawOpen" ? 1 : 0;
+        for (Index v = 0; v < deltas.size(); ++v) {
+            if (deltas[v] == Vec3(0) || head_.tags[v].part == Part::ear || head_.tags[v].part == Part::lid_lining)
+                continue;
+            for (const Jaw row : {Jaw::upper, Jaw::lower}) {
+                if (depth_in_teeth(row, rest(v), clearance_mm) > 0) continue;  // the lining behind the gums
+                const double opened = row == Jaw::lower ? jaw : 0;
+                const Vec3 end = jaw_opened(rest(v) + deltas[v], -opened);
+                if (depth_in_teeth(row, end, clearance_mm) == 0) continue;
+                deltas[v] = jaw_opened(before_teeth(row, end, clearance_mm), opened) - rest(v);
+            }
+        }
+    }
+
     void add(const std::string& name, std::vector<Vec3> deltas) {
         lids_.keep_off_eyes(deltas);
+        keep_off_teeth(name, deltas);
         if (name == "eyeBlinkLeft") lids_.join_edges(deltas);
         ShapeTarget target;
         target.name = name;

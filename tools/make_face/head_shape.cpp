@@ -28,15 +28,15 @@ double carve(double a, double hollow, double k) { return -join(-a, hollow, k); }
 
 double skull(const Vec3& p) {
     double d = ellipsoid(p, {0, 36, -8}, {74, 78, 88});
-    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);            // frontal bone
-    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);           // midface
-    d = join(d, ellipsoid(p, {43, -22, 50}, {21, 15, 23}), 22);          // zygomatic bone
-    d = join(d, cone(p, {36.5, -68, 8}, {9, -97.5, 66.5}, 12, 12), 22);  // body of the mandible
-    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);      // its ramus
-    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);           // floor of the mouth
-    d = join(d, ellipsoid(p, {0, -97.5, 71}, {15.5, 13.5, 15.5}), 16);   // chin
-    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);          // nape
-    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);         // behind the concha
+    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);           // frontal bone
+    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);          // midface
+    d = join(d, ellipsoid(p, {43, -22, 50}, {21, 15, 23}), 22);         // zygomatic bone
+    d = join(d, cone(p, {36.5, -68, 8}, {9, -97.5, 65}, 12, 12), 22);   // body of the mandible
+    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);     // its ramus
+    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);          // floor of the mouth
+    d = join(d, ellipsoid(p, {0, -97.5, 69}, {15.5, 13.5, 15.0}), 16);  // chin
+    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);         // nape
+    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);        // behind the concha
     return d;
 }
 
@@ -47,12 +47,12 @@ double neck_and_shoulders(const Vec3& p, double d) {
     double chest = join(ellipsoid(p, {0, -296, -34}, {165, 112, 80}), ellipsoid(p, {118, -262, -44}, {70, 62, 52}), 30);
     chest = join(chest, ellipsoid(p, {62, -236, -38}, {78, 52, 46}), 30);  // what fills the shoulder
     const double clavicle =
-        join(cone(p, {14, -203, 36}, {70, -198, 25}, 6, 4.8), cone(p, {70, -198, 25}, {150, -192, -22}, 4.8, 7), 10);
+        join(cone(p, {18, -206, 33}, {70, -199, 26}, 4.5, 5), cone(p, {70, -199, 26}, {150, -192, -22}, 5, 7), 10);
     chest = join(chest, clavicle, 9);
     n = join(n, chest, 26);
     n = join(n, cone(p, {50, -48, -22}, {34, -120, -8}, 8, 8), 14);  // sternocleidomastoid
-    n = join(n, cone(p, {34, -120, -8}, {13, -198, 15}, 8, 4), 22);
-    n = carve(n, ellipsoid(p, {0, -196, 39}, {9, 10, 12}), 10);   // sternal notch
+    n = join(n, cone(p, {34, -120, -8}, {15, -196, 13}, 8, 5), 24);
+    n = carve(n, ellipsoid(p, {0, -199, 40}, {9, 9, 11}), 12);    // sternal notch
     n = carve(n, ellipsoid(p, {52, -186, 22}, {26, 8, 18}), 16);  // over the clavicle
     return join(d, n, 20);
 }
@@ -182,7 +182,7 @@ double lower_lid_height(double x) {
 double lip_line_y(double x) {
     const double t = std::clamp(std::abs(x) / landmark::mouth_corner_x, 0.0, 1.0);
     // The upper lip's tubercle dips in the middle, the line rises beside it and falls a little to the corner.
-    return landmark::stomion_y - 0.9 * bell(t, 0.22) + 0.8 * std::sin(pi * t) - 0.3 * t;
+    return landmark::stomion_y - 0.9 * bell(t, 0.22) + 0.6 * std::sin(pi * t) + 0.5 * t;
 }
 
 }  // namespace blush::make_face

@@ -105,6 +105,26 @@ Mesh make_teeth(Jaw jaw) {
     });
 }
 
+namespace {
+/// Where the ray from the arch's middle through p meets its ellipse, as a factor on p's way; 1 and less outside.
+double way_to_front(const Arch& arch, const Vec3& p, double clearance_mm) {
+    const Vec2 radii(arch.half_width + clearance_mm, arch.front_z - arch_rear_z + clearance_mm);
+    const double reach = glm::length(Vec2(p.x, p.z - arch_rear_z) / radii);
+    const double gum_end = arch.root_y + arch.upward * 6;
+    const bool level = (p.y - arch.edge_y) * arch.upward > 0 && (gum_end - p.y) * arch.upward > 0;
+    return level && p.z > arch_rear_z && reach > 0.3 ? std::max(1.0, 1 / reach) : 1;
+}
+}  // namespace
+
+double depth_in_teeth(Jaw jaw, const Vec3& p, double clearance_mm) {
+    return glm::distance(p, before_teeth(jaw, p, clearance_mm));
+}
+
+Vec3 before_teeth(Jaw jaw, const Vec3& p, double clearance_mm) {
+    const double factor = way_to_front(arch_of(jaw), p, clearance_mm);
+    return {p.x * factor, p.y, arch_rear_z + (p.z - arch_rear_z) * factor};
+}
+
 Mesh make_gum(Jaw jaw) {
     const Arch& arch = arch_of(jaw);
     constexpr int around = 16;

@@ -75,6 +75,7 @@ Vec3 PersonShape::about_left_eye(const Vec3& p) const {
 }
 
 Vec3 PersonShape::operator()(const Vec3& p) const {
+    if (p.x < 0) return mirrored((*this)(mirrored(p)));  // mirror images to the bit
     const double left = eye_weight(p, eye_centre), right = eye_weight(p, mirrored(eye_centre));
     Vec3 moved(0);
     if (left + right < 1) moved += (1 - left - right) * (p + field_move(p));

@@ -40,13 +40,13 @@ double relief(const SurfaceTexel& texel) {
         const double pit = smooth_step(0.42, 0.10, cell_distance(p / cell));
         double skin = -0.125 * mix(0.22, 1.0, wide) * (1 - 0.85 * eye) * pit;
         // Primary lines: two families that cross, bent by a slow noise (Mac-Neil 1: skin relief is a net of rhombs).
-        const double bend = 1.6 * noise(p / 6.0);
+        const double bend = 2.2 * noise(p / 5.0);
         constexpr double head_radius = 76;  // so that u is a length along the skin, also on the sides of the face
         const double u = head_radius * std::atan2(p.x, p.z + 12), v = p.y;
         const double mesh = mix(1.15, 0.75, std::max(eye, 0.6 * wide));
-        const double across = noise({(0.80 * u + 0.60 * v) / mesh + bend, (0.80 * v - 0.60 * u) / (4.5 * mesh), 3.5});
-        const double other = noise({(0.74 * u - 0.67 * v) / mesh - bend, (0.74 * v + 0.67 * u) / (4.5 * mesh), 9.5});
-        skin += (0.042 + 0.012 * eye) * (furrow(across, 0.5, 2) + furrow(other, 0.5, 2));
+        const double across = noise({(0.80 * u + 0.60 * v) / mesh + bend, (0.80 * v - 0.60 * u) / (2.3 * mesh), 3.5});
+        const double other = noise({(0.74 * u - 0.67 * v) / mesh - bend, (0.74 * v + 0.67 * u) / (2.3 * mesh), 9.5});
+        skin += (0.032 + 0.016 * eye) * (furrow(across, 0.5, 2) + furrow(other, 0.5, 2));
         // The forehead's fine lines lie across it; those about the eye run out from its corner.
         skin += 0.055 * forehead * furrow(noise({u / 16, v / 1.7 + 0.6 * noise(p / 9.0), 1.5}), 0.4, 2);
         const Vec3 from_corner = half - Vec3(44, -2, 62);
