@@ -4,6 +4,7 @@
 /// the frame walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard
 /// cases. docs/adding_an_effect.md is the checklist.
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -84,6 +85,12 @@ struct HardCase {
     void (*look)(View& view) = nullptr;
 };
 
+/// A setting that takes an effect out of every frame.
+inline constexpr std::array<std::string_view, 2> yes_or_no = {"yes", "no"};
+constexpr Setting shown_setting(std::string_view meaning) { return {"shown", meaning, yes_or_no}; }
+/// Whether `shown` of that effect says no.
+bool is_hidden(const CharacterState& state, std::string_view effect);
+
 struct Effect {
     std::string_view name;
     std::string_view what;
@@ -101,7 +108,7 @@ struct Effect {
 std::span<const Effect* const> effects();
 
 extern const Effect deformation_effect, normals_effect, skinning_effect;
-extern const Effect wrinkles_effect, blood_effect;
+extern const Effect wrinkle_baking_effect, wrinkles_effect, appearance_baking_effect, blood_effect;
 extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
     antialiasing_effect, supersampling_effect, reprojection_effect;
 extern const Effect parts_effect, depth_of_field_effect, bloom_effect, exposure_effect, film_grain_effect;

@@ -64,9 +64,9 @@ vec3 shading_normal(vec3 view_world) {
     vec3 m = vec3(0.0, 0.0, 1.0);
     bool bent = false;
 #ifdef NORMAL_MAP
-    m = texture(normal_map, texture_uv[2]).xyz * 2.0 - 1.0;
-    m.xy *= metallic_roughness_normal_occlusion.z;
-    bent = true;
+    // Partial derivatives (jimenez-2012, 8.2). Flat ones leave the geometric normal as it is, to the bit.
+    m.xy = texture(normal_map, texture_uv[2]).xy * metallic_roughness_normal_occlusion.z;
+    bent = m.xy != vec2(0.0);
 #endif
 #ifdef WRINKLES
     float strength = wrinkle_strength(layout_uv);

@@ -20,6 +20,8 @@
 #define BLUSH_EXPOSURE_CELLS 32
 #define BLUSH_MOST_BLUR_TAPS 81
 
+// RGBA masks of wrinkle zones, at most: the paper's two (jimenez-2012, 8.2) and one more.
+#define BLUSH_MOST_WRINKLE_MASKS 3
 // Maps of blood that act at once, at most.
 #define BLUSH_MOST_BLOOD_MAPS 32
 
@@ -85,8 +87,8 @@
 #define BLUSH_SHADOW_UNIT 7
 #define BLUSH_ENVIRONMENT_UNIT 8
 #define BLUSH_WRINKLE_MAP_UNIT 10
-#define BLUSH_WRINKLE_MASK_1_UNIT 11
-#define BLUSH_WRINKLE_MASK_2_UNIT 12
+#define BLUSH_WRINKLE_MASKS_UNIT 11
+#define BLUSH_RESIDUAL_UNIT 12
 #define BLUSH_PIGMENT_UNIT 13
 #define BLUSH_BLOOD_CHANGE_UNIT 14
 #define BLUSH_SKIN_COLOR_UNIT 15
@@ -167,7 +169,8 @@ BLUSH_UNIFORM_BLOCK(MaterialBlock, BLUSH_MATERIAL_BINDING) {
 };
 
 BLUSH_UNIFORM_BLOCK(AppearanceBlock, BLUSH_APPEARANCE_BINDING) {
-    vec4 wrinkle_weights[2];  // of the zones, as the masks' channels hold them
+    vec4 wrinkle_weights[BLUSH_MOST_WRINKLE_MASKS];  // of the zones, as the masks' channels hold them
     vec4 wrinkle_range;       // x: derivative that the map's 1 stands for; yzw unused
-    vec4 blood;               // x: factor on the hemoglobin of the whole face; y: largest hemoglobin; zw unused
+    vec4 blood;               // x: factor on the hemoglobin of the whole face; y: largest hemoglobin; z: nodes of a side of the
+                              // colour table; w unused
 };

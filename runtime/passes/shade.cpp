@@ -29,7 +29,7 @@ std::uint32_t frame_bits(const CharacterState& state) {
         const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
         bits |= differences ? shade_wrinkles | shade_wrinkle_differences : shade_wrinkles;
     }
-    if (state.on(blood_effect)) bits |= shade_blood;
+    if (state.on(blood_effect)) bits |= colour_from_pigments(state) ? shade_blood | shade_pigment_colour : shade_blood;
     if (state.on(environment_effect)) bits |= shade_environment;
     if (state.on(occlusion_effect)) bits |= shade_ambient_occlusion;
     if (state.on(parts_effect)) bits |= parts_bits(state);
