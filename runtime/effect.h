@@ -107,7 +107,6 @@ struct Effect {
 /// All effects, in the order in which a frame applies them.
 std::span<const Effect* const> effects();
 
-extern const Effect deformation_effect, normals_effect, skinning_effect;
 extern const Effect wrinkle_baking_effect, wrinkles_effect, appearance_baking_effect, blood_effect;
 extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
     antialiasing_effect, supersampling_effect, reprojection_effect;
