@@ -4,6 +4,7 @@
 /// the frame walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard
 /// cases. docs/adding_an_effect.md is the checklist.
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -58,6 +59,8 @@ struct Variant {
     std::function<void()> run;  ///< complete when it returns
     struct Error {
         double mean = 0, worst = 0;  ///< in the study's unit
+        /// Of red, green and blue apart, where a study tells; else zero.
+        std::array<double, 3> channel_mean{}, channel_worst{};
     };
     std::function<Error()> error;
     std::string work;  ///< counted: "52 targets, 14 passes, 1.4 M deltas"

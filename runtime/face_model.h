@@ -14,7 +14,7 @@
 
 namespace blush {
 
-/// Bits of a permutation of face.frag: the material's five textures come first, in the order of MaterialBlock.
+/// Bits of a permutation of face.frag: the material's first five textures come first, in the order of MaterialBlock.
 enum ShadeBits : std::uint32_t {
     shade_skin = 1U << 5,  ///< of the material
     shade_scatter = 1U << 6,
@@ -26,6 +26,7 @@ enum ShadeBits : std::uint32_t {
     shade_wrinkles = 1U << 12,
     shade_wrinkle_differences = 1U << 13,
     shade_blood = 1U << 14,
+    shade_specular_map = 1U << 24,  ///< of the material
 };
 
 struct FaceModel {

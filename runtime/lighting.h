@@ -25,6 +25,11 @@ struct LightSource {
     float inner_radians = 0.4F;    ///< half angle of a spot's full light, below `outer_radians`
     float outer_radians = 0.5F;    ///< half angle of a spot's end, above 0 and below pi / 2
     bool casts_shadow = true;      ///< and shines through thin parts
+    /// Of what shines, for the width of its shadows' edges: radius of a point or
+    /// a spot in world units, half the angle in radians that a directional light
+    /// is seen under (below 0.5). 0 or more; 0: edges as sharp as the shadow
+    /// map's.
+    float size = 0;
 };
 
 /// A radiance map in equal longitudes and latitudes (rig/spherical_harmonics.h), prepared once.
