@@ -166,10 +166,12 @@ void main() {
 #endif
 #ifdef AMBIENT_OCCLUSION
     // What a vertex's own normal loses, its pixels lose, whatever their normals: the detail of maps stays.
-    ambient *= ambient_visibility.rgb;
+    // At the edge of a triangle a pixel's middle may lie outside of it, and interpolation beyond what is possible.
+    vec4 visible = clamp(ambient_visibility, 0.0, 1.0);
+    ambient *= visible.rgb;
     // What hides a place shines as it does itself: with_bounces() in rig/occlusion.cpp.
-    if (occlusion_poses.z != 0) ambient /= max(1.0 - diffuse_color * (1.0 - ambient_visibility.a), vec3(1e-3));
-    ambient_mirrored *= ambient_visibility.a;
+    if (occlusion_poses.z != 0) ambient /= max(1.0 - min(diffuse_color, vec3(1.0)) * (1.0 - visible.a), vec3(1e-3));
+    ambient_mirrored *= visible.a;
 #endif
     vec3 entering = vec3(0.0);  // radiance that white would reflect, of the light that is left for the inside
     vec3 surface = vec3(0.0);   // reflected at the surface

@@ -48,12 +48,13 @@ float soft_share(int i, vec2 at, float distance_here, float texel, vec3 normal, 
     vec2 texel_uv = 1.0 / vec2(textureSize(shadow_map, 0));
     mat4 m = lights[i].shadow_from_world;
     vec3 right = normalize(vec3(m[0].x, m[1].x, m[2].x)), up = normalize(vec3(m[0].y, m[1].y, m[2].y));
-    vec2 slope = texel * vec2(dot(normal, right), dot(normal, up)) / max(dot(normal, l), 0.02);
+    float n_l = max(dot(normal, l), 0.02);
+    vec2 slope = texel * vec2(dot(normal, right), dot(normal, up)) / n_l;
     float near = lights[i].shadow_depth.x, size = lights[i].shadow_depth.z;
     bool perspective = lights[i].shadow.w != 0.0;
     // What may hide some of the light stands nearer to it, as near as the map begins. An edge wider than a few dozen
-    // texels would show its taps.
-    const float widest_texels = 24.0;
+    // texels would show its taps; where light grazes, a wide filter on the surface's plane would reach over what hides it.
+    float widest_texels = min(24.0, 40.0 * n_l);
     float search = perspective ? size * (distance_here - near) / near : size * (distance_here - near);
     search = min(search / texel, widest_texels);
     const int taps = 16;
