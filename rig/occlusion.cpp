@@ -79,13 +79,43 @@ double openness(const LightTransfer& transfer) {
     return std::clamp(static_cast<double>(transfer[0]) / (sh_basis({0, 0, 1})[0] * pi), 0.0, 1.0);
 }
 
-glm::dvec3 occluded_ambient(const Sh9Color& radiance, const LightTransfer& transfer,
-                            const glm::dmat3& world_from_frame) {
+glm::dvec3 occluded_ambient(const Sh9Color& radiance, const LightTransfer& transfer, const glm::dmat3& world_from_frame,
+                            glm::dvec3 least_radiance) {
     Sh9 local{};
     std::ranges::copy(transfer, local.begin());
     const glm::dvec3 gathered = dot(radiance, rotate(sh_rotation(world_from_frame), local)) / pi;
     const glm::dvec3 open = glm::max(dot(radiance, clamped_cosine(world_from_frame[2])) / pi, glm::dvec3(0));
-    return glm::clamp(gathered, glm::dvec3(0), open);
+    return glm::min(glm::max(gathered, openness(transfer) * least_radiance), open);
+}
+
+glm::dvec3 with_bounces(glm::dvec3 direct, double openness, glm::dvec3 albedo) {
+    return direct / glm::max(1.0 - albedo * (1 - openness), glm::dvec3(1e-3));
+}
+
+void fill_shut_vertices(std::span<const std::uint32_t> triangles, std::vector<LightTransfer>& transfers) {
+    constexpr double shut_below = 0.02;
+    constexpr int rings = 3;
+    std::vector<std::uint8_t> shut;
+    for (const LightTransfer& transfer : transfers) shut.push_back(openness(transfer) < shut_below ? 1 : 0);
+    for (int ring = 0; ring < rings; ++ring) {
+        std::vector<LightTransfer> sum(transfers.size(), LightTransfer{});
+        std::vector<float> count(transfers.size(), 0.0F);
+        for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+            for (std::size_t a = 0; a < 3; ++a) {
+                for (std::size_t b = 0; b < 3; ++b) {
+                    const std::uint32_t to = triangles[i + a], from = triangles[i + b];
+                    if (shut[to] == 0 || shut[from] != 0) continue;
+                    for (std::size_t k = 0; k < 9; ++k) sum[to][k] += transfers[from][k];
+                    ++count[to];
+                }
+            }
+        }
+        for (std::size_t v = 0; v < transfers.size(); ++v) {
+            if (count[v] == 0) continue;
+            for (std::size_t k = 0; k < 9; ++k) transfers[v][k] = sum[v][k] / count[v];
+            shut[v] = 0;
+        }
+    }
 }
 
 void occlusion_weights(const OcclusionSet& set, const Face& face, std::span<const float> weights,

@@ -56,9 +56,18 @@ LightTransfer transfer_of(std::span<const glm::dvec3> directions, std::span<cons
 double openness(const LightTransfer& transfer);
 
 /// Irradiance / pi under light of these coefficients: what white reflects. world_from_frame: vertex_frame() in the
-/// world. Not below 0 and not above what an open vertex gathers (nine coefficients ring).
-glm::dvec3 occluded_ambient(const Sh9Color& radiance, const LightTransfer& transfer,
-                            const glm::dmat3& world_from_frame);
+/// world. Nine coefficients ring, so the result is held between what is certain: no more than an open vertex gathers,
+/// and no less than the open directions bring of `least_radiance`, which the light has from every side.
+glm::dvec3 occluded_ambient(const Sh9Color& radiance, const LightTransfer& transfer, const glm::dmat3& world_from_frame,
+                            glm::dvec3 least_radiance = glm::dvec3(0));
+
+/// The same with the light that the surfaces around a vertex send on: what hides it shines as the vertex itself does,
+/// albedo times its irradiance, so that E = direct + (1 - openness) albedo E. A white furnace stays white.
+glm::dvec3 with_bounces(glm::dvec3 direct, double openness, glm::dvec3 albedo);
+
+/// Vertices that are shut in (openness below a fiftieth) take the mean of their open neighbours, and those of theirs,
+/// ring by ring: of what is seen of a triangle between the two, the open corner tells. `triangles`: vertex indices.
+void fill_shut_vertices(std::span<const std::uint32_t> triangles, std::vector<LightTransfer>& transfers);
 
 /// Which pose of a set counts how much: rest has what is left of 1. `weights`: of the face's targets; one that is not
 /// finite counts as 0, and more than 1 as 1. `out`: one entry a pose.

@@ -90,6 +90,7 @@ Result<Character> Character::create(const Device& device, Face face, const std::
     state->pose = state->rig.rest_pose();
     state->head_and_eyes = find_head_and_eyes(state->face);
     state->bounds = moving_bounds(state->face);
+    state->scale = face_scale(state->face);
     find_skin_parts(*state);
     state->target_needs_turned_normals = targets_that_move(
         state->face, [](const Primitive& primitive) { return primitive.normal_source == NormalSource::recomputed; });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rig/blood_flow.h"
+#include "rig/face_scale.h"
 #include "rig/head_and_eyes.h"
 #include "rig/material_kind.h"
 #include "rig/occlusion.h"
@@ -109,7 +110,8 @@ struct CharacterState {
     std::vector<MaterialKind> material_kind;  // the same
     std::vector<SkinPart> skin_parts;         // by node
     std::vector<float> target_reach;          // of each target: its longest move of skin at weight 1, mesh units
-    double millimetres_a_unit = 1;
+    FaceScale scale;                          // as the face itself tells
+    double millimetres_a_unit = 1;            // that, or as the settings want it
     std::vector<ActiveTarget> active, deformed_active;
     NormalMethod normal_method = NormalMethod::authored;
     EffectSettings deformed_settings;

@@ -59,6 +59,8 @@ struct Variant {
     std::function<void()> run;  ///< complete when it returns
     struct Error {
         double mean = 0, worst = 0;  ///< in the study's unit
+        /// Of red, green and blue apart, where a study tells; else zero.
+        std::array<double, 3> channel_mean{}, channel_worst{};
     };
     std::function<Error()> error;
     std::string work;  ///< counted: "52 targets, 14 passes, 1.4 M deltas"

@@ -67,8 +67,17 @@ gl::Texture make_image_texture(const Image& image, bool srgb) {
     return texture;
 }
 
-std::array<const TextureUse*, 5> textures_of(const Material& m) {
-    return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb};
+/// In the order of MaterialBlock.
+constexpr std::size_t texture_count = 6;
+constexpr std::array<bool, texture_count> texture_is_srgb = {true, false, false, false, true, false};
+constexpr std::array<GLuint, texture_count> unit_of_texture = {BLUSH_BASE_COLOR_UNIT, BLUSH_METALLIC_ROUGHNESS_UNIT,
+                                                               BLUSH_NORMAL_MAP_UNIT, BLUSH_OCCLUSION_UNIT,
+                                                               BLUSH_EMISSIVE_UNIT,   BLUSH_SPECULAR_UNIT};
+constexpr std::array<std::uint32_t, texture_count> bit_of_texture = {1U << 0, 1U << 1, 1U << 2,
+                                                                     1U << 3, 1U << 4, shade_specular_map};
+
+std::array<const TextureUse*, texture_count> textures_of(const Material& m) {
+    return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb, &m.specular_map};
 }
 
 constexpr std::array<std::string_view, 19> defines_of_bits = {
@@ -80,7 +89,7 @@ constexpr std::array<std::string_view, 19> defines_of_bits = {
 std::uint32_t permutation_of(const Material& material, MaterialKind kind, std::uint32_t frame_bits) {
     const auto uses = textures_of(material);
     std::uint32_t bits = frame_bits;
-    for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? 1U << t : 0U;
+    for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? bit_of_texture[t] : 0U;
     // What only skin has is left out elsewhere, so that fewer programs are made.
     constexpr std::uint32_t of_skin = shade_skin_reflection | shade_translucency | shade_wrinkles |
                                       shade_wrinkle_differences | shade_blood | shade_pigment_colour;
@@ -97,13 +106,13 @@ Status make_permutation(std::map<std::uint32_t, gl::Program>& programs, std::uin
     for (std::size_t t = 0; t < defines_of_bits.size(); ++t) {
         if ((bits >> t & 1U) != 0) defines.push_back(defines_of_bits[t]);
     }
+    if ((bits & shade_specular_map) != 0) defines.emplace_back("SPECULAR_MAP");
     Result<gl::Program> made = gl::make_program({"face.vert", "face.frag", defines});
     if (!made) return made.error();
     programs.emplace(bits, *std::move(made));
     return Done{};
 }
 
-constexpr std::array<bool, 5> texture_is_srgb = {true, false, false, false, true};
 /// The normal map among textures_of().
 constexpr std::size_t normal_texture = 2;
 
@@ -115,7 +124,7 @@ shared::MaterialBlock block_of(const Material& m, float normal_range) {
     block.metallic_roughness_normal_occlusion = glm::vec4(m.metallic, m.roughness, m.normal_scale * normal_range,
                                                           m.occlusion.image >= 0 ? m.occlusion_strength : 0);
     block.alpha = glm::vec4(m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0F,
-                            m.alpha_mode == AlphaMode::blend ? 0 : 1, 0, 0);
+                            m.alpha_mode == AlphaMode::blend ? 0 : 1, m.scatter_by_alpha ? 1 : 0, m.specular);
     const auto uses = textures_of(m);
     for (std::size_t t = 0; t < uses.size(); ++t) {
         const glm::mat3 rows = glm::transpose(uses[t]->uv_transform);
@@ -124,7 +133,7 @@ shared::MaterialBlock block_of(const Material& m, float normal_range) {
     }
     const auto set = [&](std::size_t t) { return static_cast<int>(uses[t]->uv_set); };
     block.uv_sets = glm::ivec4(set(0), set(1), set(2), set(3));
-    block.emissive_uv_set = glm::ivec4(set(4), 0, 0, 0);
+    block.emissive_uv_set = glm::ivec4(set(4), set(5), 0, 0);
     return block;
 }
 
@@ -254,8 +263,8 @@ void FaceModel::bind_maps(const Face& face, std::int32_t material) const {
         if (use.image < 0) continue;
         const auto image = static_cast<std::size_t>(use.image);
         const gl::Texture& texture = textures_for(t)[image];
-        glBindTextureUnit(BLUSH_BASE_COLOR_UNIT + t, texture.name());
-        glBindSampler(BLUSH_BASE_COLOR_UNIT + t, samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
+        glBindTextureUnit(unit_of_texture[t], texture.name());
+        glBindSampler(unit_of_texture[t], samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
     }
 }
 

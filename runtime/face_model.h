@@ -15,7 +15,7 @@
 
 namespace blush {
 
-/// Bits of a permutation of face.frag: the material's five textures come first, in the order of MaterialBlock.
+/// Bits of a permutation of face.frag: the material's first five textures come first, in the order of MaterialBlock.
 enum ShadeBits : std::uint32_t {
     shade_skin = 1U << 5,  ///< of the material
     shade_scatter = 1U << 6,
@@ -31,6 +31,7 @@ enum ShadeBits : std::uint32_t {
     shade_mouth = 1U << 16,
     shade_hair = 1U << 17,
     shade_pigment_colour = 1U << 18,  ///< with blood
+    shade_specular_map = 1U << 24,  ///< of the material
 };
 
 struct FaceModel {

@@ -3,6 +3,8 @@
 #include <array>
 #include <numbers>
 
+#include "runtime/effect.h"
+
 namespace blush {
 
 static_assert(most_occlusion_poses <= 4 * std::extent_v<decltype(shared::FrameBlock::occlusion_weights)>);
@@ -14,7 +16,8 @@ void write_occlusion_weights(const CharacterState& state, shared::FrameBlock& bl
     for (std::size_t p = 0; p < set.poses.size(); ++p) {
         block.occlusion_weights[p / 4][static_cast<glm::length_t>(p % 4)] = weights[p];
     }
-    block.occlusion = {static_cast<int>(set.poses.size()), static_cast<int>(state.face.positions.size()), 0, 0};
+    block.occlusion_poses = {static_cast<int>(set.poses.size()), static_cast<int>(state.face.positions.size()),
+                             state.settings.choice(occlusion_effect.name, "bounces") == 0 ? 1 : 0, 0};
 }
 
 std::vector<glm::vec4> packed_occlusion(const OcclusionSet& set) {

@@ -50,7 +50,7 @@ void find_skin_parts(CharacterState& state) {
 
 void find_skin_facts(CharacterState& state) {
     const double set_scale = state.settings.number(scattering_effect.name, "millimetres_a_unit");
-    state.millimetres_a_unit = set_scale > 0 ? set_scale : millimetres_a_unit(state.bounds);
+    state.millimetres_a_unit = set_scale > 0 ? set_scale : state.scale.millimetres_a_unit;
     SceneFacts& facts = state.facts;
     facts.has_skin = !state.skin_parts.empty();
     float reach = 0;

@@ -16,10 +16,10 @@ vec3 gathered(vec4 h0, vec4 h1, float h8) {
 vec4 ambient_share(vec3 normal, vec3 tangent) {
     vec4 a = vec4(0.0), b = vec4(0.0);
     float c = 0.0;
-    for (int pose = 0; pose < occlusion.x; ++pose) {
+    for (int pose = 0; pose < occlusion_poses.x; ++pose) {
         float weight = occlusion_weights[pose >> 2][pose & 3];
         if (weight == 0.0) continue;
-        int at = 3 * (pose * occlusion.y + gl_VertexID);
+        int at = 3 * (pose * occlusion_poses.y + gl_VertexID);
         a += weight * transfer[at];
         b += weight * transfer[at + 1];
         c += weight * transfer[at + 2].x;
@@ -46,11 +46,12 @@ vec4 ambient_share(vec3 normal, vec3 tangent) {
         vec4(1.092548431 * z.x * z.y, 1.092548431 * z.y * z.z, 0.315391565 * (3.0 * z.z * z.z - 1.0), 1.092548431 * z.x * z.z),
         0.546274215 * (z.x * z.x - z.y * z.y));
     float directions = clamp(a.x / 0.282094792, 0.0, 1.0);
-    // Nine coefficients ring: what an open vertex gathers bounds what arrives, and where that is nothing the open
-    // directions say how much a neighbour may have.
+    // Nine coefficients ring: what an open vertex gathers bounds what arrives from above, what comes from every side
+    // from below; where an open vertex gathers nothing, the open directions say how much a neighbour may have.
+    vec3 least = directions * vec3(ambient_sh[0].w, ambient_sh[1].w, ambient_sh[2].w);
     vec3 share = vec3(directions);
     for (int i = 0; i < 3; ++i) {
-        if (open[i] > 1e-4 * abs(ambient_sh[0][i])) share[i] = clamp(here[i] / open[i], 0.0, 1.0);
+        if (open[i] > 1e-4 * abs(ambient_sh[0][i])) share[i] = clamp(max(here[i], least[i]) / open[i], 0.0, 1.0);
     }
     return vec4(share, directions);
 }

@@ -202,6 +202,7 @@ Result<OcclusionSet> bake_occlusion(const Face& face, const OcclusionBake& optio
         const World world = stand(face, surface);
         const ScenePointer scene = make_scene(device.get(), world);
         set.poses.push_back({pose, cast_all(scene.get(), world, options.rays)});
+        fill_shut_vertices(face.indices, set.poses.back().transfers);
         if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE) {
             return Error{face.path + ": Embree fails with error " + std::to_string(error)};
         }

@@ -11,7 +11,7 @@
 namespace blush {
 
 struct OcclusionBake {
-    std::uint32_t rays = 512;          ///< a vertex, 16 to 65,536
+    std::uint32_t rays = 256;          ///< a vertex, 16 to 65,536
     std::vector<std::string> targets;  ///< that are at weight 1 in a pose of their own; names of the face
 };
 

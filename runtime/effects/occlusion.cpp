@@ -11,8 +11,10 @@ namespace blush {
 namespace {
 
 constexpr std::array<std::string_view, 2> method_choices = {"baked", "off"};
-constexpr std::array<Setting, 1> settings = {{
+constexpr std::array<std::string_view, 2> bounce_choices = {"on", "off"};
+constexpr std::array<Setting, 2> settings = {{
     {"method", "baked: by nine coefficients a vertex; off: nothing hides ambient light", method_choices, 0},
+    {"bounces", "on: what hides a place shines as the place itself does; off: it is black", bounce_choices, 0},
 }};
 
 Need need(const CharacterState& state) {

@@ -1,4 +1,5 @@
-// What a face hides of the light from all around, on the GPU, against rig/occlusion.cpp in double precision.
+// What a face hides of the light from all around, on the GPU, against
+// rig/occlusion.cpp in double precision.
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 
 #include "runtime/effect.h"
 #include "runtime/character_state.h"
+#include "runtime/effect.h"
 #include "runtime/environment_map.h"
 #include "tests/gl_fixture.h"
 
@@ -17,8 +19,9 @@ namespace {
 
 constexpr std::uint32_t side = 16;
 
-/// A square of white skin, 60 mm wide, that looks along +Z; every vertex has the same transfer. Target "bent" turns its
-/// normal and its tangent, not its places.
+/// A square of white skin, 60 mm wide, that looks along +Z; every vertex has
+/// the same transfer. Target "bent" turns its normal and its tangent, not its
+/// places.
 Face square() {
     Face face;
     face.path = "square";
@@ -81,12 +84,24 @@ Lighting room() {
     return lighting;
 }
 
+/// The darkest side of the map as the roughest mirror sees it.
+glm::dvec3 least_of(const Environment& environment) {
+    glm::dvec3 least(1e9);
+    const std::vector<float>& blurred = environment.levels.back().rgb_linear;
+    for (std::size_t i = 0; i < blurred.size(); ++i) {
+        double& channel = least[static_cast<glm::length_t>(i % 3)];
+        channel = std::min(channel, static_cast<double>(blurred[i]));
+    }
+    return least;
+}
+
 class OcclusionOnTheGpu : public test::GlTest {
 protected:
     Character plain(Face face, std::optional<OcclusionSet> set) const {
         Character character = make_character(std::move(face));
         EXPECT_TRUE(character.set("scattering.method", "off"));
         EXPECT_TRUE(character.set("reflection.intensity", "0"));
+        EXPECT_TRUE(character.set("occlusion.bounces", "off"));
         character.set_occlusion(std::move(set));
         return character;
     }
@@ -138,7 +153,7 @@ TEST_F(OcclusionOnTheGpu, EqualsTheTwinAtRestDeformedAndTurned) {
                                                       node * glm::dvec3(surface.tangents[0]));
                 const glm::dmat3 about_y(glm::rotate(glm::dmat4(1), static_cast<double>(turn), glm::dvec3(0, 1, 0)));
                 const Sh9Color light = rotate(sh_rotation(about_y), lighting.environment->radiance_sh);
-                const glm::dvec3 expected = occluded_ambient(light, hidden, frame);
+                const glm::dvec3 expected = occluded_ambient(light, hidden, frame, least_of(*lighting.environment));
                 const glm::dvec3 open = dot(light, clamped_cosine(frame[2])) / pi;
                 for (glm::length_t c = 0; c < 3; ++c) {
                     EXPECT_NEAR(drawn[c], expected[c], gpu_tolerance * open[c]) << bend << " " << yaw << " " << turn;
@@ -164,9 +179,13 @@ TEST_F(OcclusionOnTheGpu, PosesBlendByTheirTargets) {
     }
     Character without = plain(face, std::nullopt);
     const glm::dvec3 free = middle(test::draw(without, offscreen, view));
+    LightTransfer blended{};
+    for (std::size_t i = 0; i < 9; ++i) blended[i] = 0.5F * (hidden[i] + open[i]);
+    const glm::dvec3 half_way =
+        occluded_ambient(lighting.environment->radiance_sh, blended, glm::dmat3(1), least_of(*lighting.environment));
     for (glm::length_t c = 0; c < 3; ++c) {
         EXPECT_NEAR(seen[2][c], free[c], gpu_tolerance * free[c]);
-        EXPECT_NEAR(seen[1][c], 0.5 * (seen[0][c] + seen[2][c]), gpu_tolerance * free[c]);
+        EXPECT_NEAR(seen[1][c], half_way[c], gpu_tolerance * free[c]);
         EXPECT_LT(seen[0][c], 0.75 * free[c]);
     }
 }
@@ -185,8 +204,16 @@ TEST_F(OcclusionOnTheGpu, SkyAndGroundAreHiddenToo) {
     const glm::dvec3 sky(lighting.sky_radiance_linear), ground(lighting.ground_radiance_linear);
     light[0] = 0.5 * (sky + ground) / up[0];
     light[1] = 0.5 * (sky - ground) / up[1] * 1.5;  // the convolution with the cosine takes a third of band 1
-    const glm::dvec3 expected = occluded_ambient(light, half_hidden(), glm::dmat3(1));
+    const glm::dvec3 expected = occluded_ambient(light, half_hidden(), glm::dmat3(1), glm::min(sky, ground));
     for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(drawn[c], expected[c], gpu_tolerance);
+
+    Face coloured = face;
+    coloured.materials[0].base_color_linear = {0.8F, 0.5F, 0.2F, 1};
+    Character bouncing = plain(coloured, same_everywhere(face, {{"", half_hidden()}}));
+    ASSERT_TRUE(bouncing.set("occlusion.bounces", "on"));
+    const glm::dvec3 albedo(0.8, 0.5, 0.2), lit = middle(test::draw(bouncing, offscreen, view));
+    const glm::dvec3 twin = albedo * with_bounces(expected, openness(half_hidden()), albedo);
+    for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], twin[c], gpu_tolerance);
 }
 
 TEST_F(OcclusionOnTheGpu, AnOpenFaceIsDrawnAsWithoutAndLampsAreNotHidden) {

@@ -99,6 +99,39 @@ TEST(Occlusion, EverythingHiddenIsDarkAndNothingExceedsAnOpenVertex) {
     }
 }
 
+TEST(Occlusion, BouncesKeepAWhiteFurnaceWhiteAndAddNothingWhereNothingHides) {
+    for (const double open : {0.01, 0.3, 1.0}) {
+        const glm::dvec3 light = with_bounces(glm::dvec3(open), open, {1, 0.5, 0});
+        EXPECT_NEAR(light.x, 1, 1e-9);
+        EXPECT_LE(light.y, 1);
+        EXPECT_GE(light.y, open);
+        EXPECT_NEAR(light.z, open, 1e-12);
+    }
+}
+
+TEST(Occlusion, WhatComesFromEverySideArrivesThroughEveryOpening) {
+    std::vector<std::uint8_t> hidden;
+    const std::vector<glm::dvec3> directions = cosine_directions(256);
+    for (const glm::dvec3& w : directions) hidden.push_back(w.x > -0.3 ? 1 : 0);
+    const LightTransfer transfer = transfer_of(directions, hidden);
+    Sh9Color lamp{};  // from the hidden side, so hard that the coefficients ring below 0
+    const Sh9 from = sh_basis({0.9, 0, std::sqrt(1 - 0.81)});
+    for (std::size_t i = 0; i < 9; ++i) lamp[i] = glm::dvec3(5 * from[i]);
+    lamp[0] += glm::dvec3(0.2 / sh_basis({0, 0, 1})[0]);
+    EXPECT_EQ(occluded_ambient(lamp, transfer, glm::dmat3(1)).x, 0);
+    EXPECT_NEAR(occluded_ambient(lamp, transfer, glm::dmat3(1), glm::dvec3(0.2)).x, 0.2 * openness(transfer), 1e-12);
+}
+
+TEST(Occlusion, ShutVerticesTakeTheirNeighbours) {
+    const LightTransfer open = transfer_of(cosine_directions(16), std::vector<std::uint8_t>(16, 0));
+    std::vector<LightTransfer> transfers = {open, LightTransfer{}, LightTransfer{}, LightTransfer{}};
+    // 0 - 1 - 2, and 3 that no triangle joins to anything open.
+    fill_shut_vertices(std::vector<std::uint32_t>{0, 1, 1, 1, 2, 2, 3, 3, 3}, transfers);
+    EXPECT_EQ(transfers[1], open);
+    EXPECT_EQ(transfers[2], open);
+    EXPECT_EQ(transfers[3], LightTransfer{});
+}
+
 TEST(Occlusion, TurningTheVertexIsTurningTheLightBack) {
     std::vector<std::uint8_t> hidden;
     const std::vector<glm::dvec3> directions = cosine_directions(256);

@@ -19,7 +19,8 @@ TEST_F(Cli, OcclusionIsBakedBesideAFaceAndFound) {
     expect_refused("bake occlusion face.glb -o x.occlusion --pose noSuchTarget",
                    "face.glb: it has no target \"noSuchTarget\"");
     expect_refused("bake occlusion nothing.glb -o x.occlusion", "nothing.glb: there is no such file");
-    expect_refused("bake occlusion face.glb -o none/x.occlusion", "none/x.occlusion: cannot be written: the folder none does not exist");
+    expect_refused("bake occlusion face.glb -o none/x.occlusion",
+                   "none/x.occlusion: cannot be written: the folder none does not exist");
 }
 
 }  // namespace

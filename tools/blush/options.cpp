@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "rig/names.h"
-#include "rig/skin_material.h"
+#include "runtime/character_state.h"
 #include "runtime/face_file.h"
 #include "runtime/lighting_file.h"
 #include "runtime/occlusion_file.h"
@@ -164,13 +164,23 @@ void LightOptions::add_to(CLI::App& command) {
         ->check(number_from(0, 1e4));
 }
 
+namespace {
+
+/// Millimetres a unit, as its settings or itself have it.
+double scale_of(Character& character) {
+    const double set = character.state().settings.number("scattering", "millimetres_a_unit");
+    return set > 0 ? set : character.state().scale.millimetres_a_unit;
+}
+
+}  // namespace
+
 Result<std::optional<Lighting>> LightOptions::lighting(Character& character) const {
     if (lights.empty() && environment.empty()) return std::optional<Lighting>();
     Lighting result;
     if (!lights.empty()) {
         const Bounds bounds = moving_bounds(character.face());
         Result<Lighting> read = fs::path(lights).extension() == ".json"
-                                    ? read_lighting(lights, bounds, millimetres_a_unit(bounds))
+                                    ? read_lighting(lights, bounds, scale_of(character))
                                     : named_lighting(lights);
         if (!read) return Error{"--lights: " + read.error().message};
         result = *std::move(read);
