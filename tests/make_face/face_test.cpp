@@ -11,10 +11,12 @@
 
 #include "rig/names.h"
 #include "tools/make_face/build_face.h"
+#include "tools/make_face/coarse_head.h"
 #include "tools/make_face/expressions.h"
 #include "tools/make_face/hair.h"
 #include "tools/make_face/head_shape.h"
 #include "tools/make_face/mouth_parts.h"
+#include "tools/make_face/parallel.h"
 
 namespace blush::make_face {
 namespace {
@@ -287,6 +289,53 @@ Layout measure_layout(const Head& head) {
     return layout;
 }
 
+/// At every size: mirror images, closed lips, a parted eye, no triangle without area, no overlap in the texture.
+TEST(Sizes, KeepSeamsSlitsAndTexture) {
+    for (const std::size_t asked : {least_vertices, std::size_t{100'000}}) {
+        SCOPED_TRACE(asked);
+        const Head head = make_head(asked);
+        const auto& p = head.mesh.positions;
+        for (Index v = 0; v < head.image.size(); ++v) ASSERT_EQ(p[head.image[v]], mirrored(p[v]));
+        for (Index v = 0; v < head.weld.size(); ++v) ASSERT_EQ(p[head.weld[v]], p[v]);
+        for (std::size_t k = 0; k < head.upper_lip.size(); ++k) ASSERT_EQ(p[head.upper_lip[k]], p[head.lower_lip[k]]);
+        double widest = 0;
+        for (std::size_t k = 0; k < head.upper_lid.size(); ++k)
+            widest = std::max(widest, glm::distance(p[head.upper_lid[k]], p[head.lower_lid[k]]));
+        EXPECT_GT(widest, 8);
+        // The skin lies on the head's surface, whatever its tessellation: nostrils and the bust's cut apart.
+        double sum = 0, count = 0;
+        for (Index v = 0; v < p.size(); ++v) {
+            if (head.tags[v].part != Part::skin || p[v].y < -130) continue;
+            if (std::abs(p[v].x) < 30 && p[v].y < -40 && p[v].y > -80 && p[v].z > 70) continue;
+            sum += std::abs(head_distance(p[v]));
+            ++count;
+        }
+        EXPECT_LT(sum / count, 0.05) << "millimetres";
+        const Layout layout = measure_layout(head);
+        EXPECT_LE(layout.overlapping, layout.covered / 5'000);
+        EXPECT_LT(layout.high / layout.low, 2);
+    }
+}
+
+TEST(Sizes, TheSmallestKeepsTheLawsOfLidsAndLips) {
+    const Head head = make_head(least_vertices);
+    const std::vector<ShapeTarget> targets = head_targets(head);
+    const auto named = [&](const std::string& name) -> const ShapeTarget& {
+        return *std::ranges::find(targets, name, &ShapeTarget::name);
+    };
+    const auto& p = head.mesh.positions;
+    const auto &blink = named("eyeBlinkLeft").position_deltas, &open = named("jawOpen").position_deltas,
+               &close = named("mouthClose").position_deltas;
+    for (std::size_t k = 0; k < head.upper_lid.size(); ++k) {
+        const Index u = head.upper_lid[k], l = head.lower_lid[k];
+        EXPECT_EQ(p[u] + blink[u], p[l] + blink[l]);
+    }
+    for (std::size_t k = 0; k < head.upper_lip.size(); ++k) {
+        const Index u = head.upper_lip[k], l = head.lower_lip[k];
+        EXPECT_LT(glm::distance(open[u] + close[u], open[l] + close[l]), 0.3);
+    }
+}
+
 TEST(Texture, HasEvenDensityAndNoOverlaps) {
     const Layout layout = measure_layout(built().head);
     std::printf(
@@ -298,11 +347,28 @@ TEST(Texture, HasEvenDensityAndNoOverlaps) {
     EXPECT_GT(layout.covered, 500'000);
 }
 
-TEST(File, SameRequestSameBytes) {
+TEST(File, SameRequestSameBytesFromOneThreadAndFromTwo) {
+    most_threads = 1;
     const std::string once = glb_bytes(build_face(5'000, {}, 128));
     EXPECT_GT(once.size(), 1'000'000U);
     EXPECT_EQ(once.substr(0, 4), "glTF");
-    EXPECT_EQ(once, glb_bytes(build_face(5'000, {}, 128)));
+    most_threads = 2;
+    EXPECT_TRUE(once == glb_bytes(build_face(5'000, {}, 128)));
+    most_threads = 16;
+}
+
+TEST(Face, TheRelaxedGridDoesNotDependOnThreads) {
+    most_threads = 1;
+    const CoarseHead alone;
+    most_threads = 3;
+    const CoarseHead shared;
+    most_threads = 16;
+    for (double row = 0; row <= alone.grid().last_row(); row += 2.5) {
+        for (double column = 0; column <= alone.grid().last_column(); column += 3.5) {
+            ASSERT_EQ(alone.at(column, row, true).position, shared.at(column, row, true).position);
+            ASSERT_EQ(alone.at(column, row, true).flat, shared.at(column, row, true).flat);
+        }
+    }
 }
 
 TEST(File, BadPathIsOneSentenceAndLeavesNothing) {

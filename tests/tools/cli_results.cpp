@@ -193,8 +193,8 @@ TEST_F(Cli, AccuracyWritesAPageAndNumbers) {
     EXPECT_THAT(bytes_of("report/index.html"), HasSubstr("<h2>normals</h2>"));
 }
 
-TEST_F(Cli, MakeFaceWritesAFaceThatLoads) {
-    const Ran ran = run("'" MAKE_FACE_PROGRAM "' --vertices 6000 -o made.glb", path(""));
+TEST_F(Cli, BakeFaceWritesAPersonThatLoads) {
+    const Ran ran = blush("bake face --preset mei --set jaw_width=+1 --vertices 5000 --texture-size 128 -o made.glb");
     ASSERT_EQ(ran.exit_status, 0) << ran.errors;
     EXPECT_EQ(listing(path("")), (std::set<std::string>{"face.glb", "made.glb"}));
     const Json json = Json::parse(blush("info made.glb --json").output);

@@ -113,7 +113,7 @@ private:
             // The cut's edge, the pole and where the lips meet stay where they are; all else returns to the surface.
             const bool held = j == 0 || j == grid_.last_row() || (j == grid_.mouth && i <= grid_.mouth_corner);
             positions_[v] = held ? sample.position : sink_nostril(project_to_head(sample.position));
-            if (i == 0 || i == grid_.last_column()) positions_[v].x = 0;
+            if (i == 0 || i == grid_.last_column() || j == grid_.last_row()) positions_[v].x = 0;
             uv_[v] = to_texture(sample.flat);
         };
         parallel_pieces(grid_.last_row() + 1, [&](int first, int last) {
@@ -124,6 +124,8 @@ private:
                 }
             }
         });
+        for (int i = 1; i <= grid_.last_column(); ++i)
+            positions_[id(i, grid_.last_row())] = positions_[id(0, grid_.last_row())];
         // The lips' edges are one line.
         for (int i = 0; i <= grid_.mouth_corner; ++i)
             positions_[upper_id(i, grid_.mouth)] = positions_[id(i, grid_.mouth)];
