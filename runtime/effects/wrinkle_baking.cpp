@@ -94,7 +94,7 @@ std::vector<Study> studies(const Device& /*device*/, const Face& /*face*/, doubl
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"texture coordinates without an area", "no folds, and finite",
      [](Face& face) { std::ranges::fill(face.uv0, glm::vec2(0.5F)); }},
-    {"targets that press everything into one point", "finite",
+    {"targets that press everything into one point", "draws nothing, and finite",
      [](Face& face) {
          for (Target& target : face.targets) {
              for (std::size_t i = 0; i < target.vertices.size(); ++i)
