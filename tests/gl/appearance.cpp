@@ -153,8 +153,8 @@ TEST_F(Appearance, MoreBloodIsRedder) {
         ASSERT_NEAR(anger[i].g, 1, 2e-3) << "not skin";
 }
 
-// The paper has its base map in 3Dc too (8.3). Slopes up to 22 degrees, whole waves within a block of 4 x 4: no texel is
-// off by more than a fourteenth of their extent of 0.8 in either channel, 4.6 degrees.
+// The paper has its base map in 3Dc too (8.3). Slopes up to 22 degrees, whole waves within a block of 4 x 4: no texel
+// is off by more than a fourteenth of their extent of 0.8 in either channel, 4.6 degrees.
 TEST_F(Appearance, BaseNormalsAreNearTheVectorsOfTheirImage) {
     const gl::StateGuard guard;
     const Image image = test::waffle_normal_map();
