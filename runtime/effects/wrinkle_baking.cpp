@@ -56,7 +56,7 @@ Variant variant_of(std::string label, std::string work, bool is_default, const W
 }
 
 std::vector<Study> studies(const Device& /*device*/, const Face& /*face*/, double /*millimetres_a_unit*/, bool quick) {
-    constexpr std::uint32_t base_side = 256;  // what is studied are the wrinkles; pores need no more
+    constexpr std::uint32_t base_side = 256;  // of the pores: the same for all variants
     constexpr const char* reference = "a displaced patch of skin in double precision (rig/wrinkle_error.h)";
     Study sizes{"baked folds every 8 mm, 45 degrees steep, on 60 mm of skin", reference, "degrees", {}, nullptr};
     for (const std::uint32_t side : {64U, 128U, 256U, 512U}) {
@@ -94,7 +94,7 @@ std::vector<Study> studies(const Device& /*device*/, const Face& /*face*/, doubl
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"texture coordinates without an area", "no folds, and finite",
      [](Face& face) { std::ranges::fill(face.uv0, glm::vec2(0.5F)); }},
-    {"targets that press everything into one point", "finite",
+    {"targets that press everything into one point", "draws nothing, and finite",
      [](Face& face) {
          for (Target& target : face.targets) {
              for (std::size_t i = 0; i < target.vertices.size(); ++i)

@@ -229,7 +229,7 @@ TEST_F(EmotionFrames, BloodGoesWhereTheThesisHasIt) {
         EXPECT_GT(change(fear, place).x, 0.3) << "lighter";
     }
     const double cheekbone = std::min(change(joy, cheek_left).y, change(joy, cheek_right).y);
-    EXPECT_GT(cheekbone, 1.5);
+    EXPECT_GT(cheekbone, 1);
     EXPECT_GT(cheekbone, 3 * std::abs(change(joy, forehead).y));
     EXPECT_GT(cheekbone, 2 * change(joy, chin).y);
     EXPECT_GT(cheekbone, change(joy, corner).y);

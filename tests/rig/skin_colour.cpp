@@ -177,7 +177,7 @@ TEST(SkinColour, HasTheReflectancesOfTheColorCheckersSkins) {
                     patch == &dark_patch ? "dark" : "light", fit.chromophores.melanin, fit.chromophores.hemoglobin,
                     fit.rms, fit.worst, fit.ciede2000);
         const bool dark = patch == &dark_patch;
-        // Both are paints, and lighter than the model's skins in the red: tolerances are just above what was found.
+        // Both are paints, not skin: tolerances are just above what was found.
         EXPECT_LT(fit.rms, dark ? 0.022 : 0.07);
         EXPECT_LT(fit.ciede2000, dark ? 7.6 : 5.2);
         EXPECT_GT(fit.chromophores.melanin, dark ? 0.1 : 0.002);
