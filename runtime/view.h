@@ -33,8 +33,8 @@ struct View {
     /// Nothing of the frame before may show: the first frame after a cut, a seek or a jump of the camera. (A view of
     /// another size is a cut by itself.)
     bool cut = false;
-    /// The moment that the frame shows, from wherever the host counts: an automatic exposure adapts by the seconds since
-    /// the frame before (at once after a cut, and where the moment is not later).
+    /// The moment that the frame shows, from wherever the host counts: lights go round by it, and an automatic
+    /// exposure adapts by the time since the frame before (at once after a cut, and where it is not later).
     double time_seconds = 0;
     std::uint32_t frame_number = 0;  ///< chooses the grain of the film
     glm::vec4 background_linear{0.035F, 0.037F, 0.042F, 1};
