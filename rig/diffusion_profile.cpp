@@ -1,5 +1,6 @@
 #include "rig/diffusion_profile.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -89,6 +90,85 @@ glm::dvec3 dipole_at(const ScatteringMaterial& material, double r_mm) {
         result[c] = albedo / (4 * std::numbers::pi) * (source(real_depth) + source(virtual_depth));
     }
     return result;
+}
+
+namespace {
+
+/// Light that leaves within each of `radii_mm` of where it entered, of all that
+/// leaves: the dipole's integral, by the midpoint rule in the logarithm of the
+/// distance.
+std::vector<glm::dvec3> light_within(const ScatteringMaterial& material, std::span<const double> radii_mm) {
+    constexpr int steps = 64;  // between two radii
+    std::vector<glm::dvec3> within;
+    glm::dvec3 sum(0);
+    double from = radii_mm.front() * 1e-3;
+    for (const double to : radii_mm) {
+        const double step = std::log(to / from) / steps;
+        for (int i = 0; i < steps; ++i) {
+            const double r = from * std::exp((i + 0.5) * step);
+            sum += dipole_at(material, r) * (2 * std::numbers::pi * r * r * step);
+        }
+        within.push_back(sum);
+        from = to;
+    }
+    for (glm::dvec3& value : within) value /= sum;
+    return within;
+}
+
+}  // namespace
+
+std::vector<GaussianTerm> gaussians_of(const ScatteringMaterial& material) {
+    // How far light goes in the channel in which it goes farthest and least: the
+    // widths lie between.
+    double farthest = 0, nearest = 1e9;
+    for (glm::length_t c = 0; c < 3; ++c) {
+        const double extinction = material.reduced_scattering_per_mm[c] + material.absorption_per_mm[c];
+        farthest = std::max(farthest, 1 / std::sqrt(3 * material.absorption_per_mm[c] * extinction));
+        nearest = std::min(nearest, 1 / extinction);
+    }
+    std::vector<GaussianTerm> terms(most_gaussian_terms);
+    const double low = std::log(0.3 * nearest), high = std::log(1.6 * farthest);
+    for (std::size_t g = 0; g < terms.size(); ++g) {
+        const double sigma =
+            std::exp(low + (high - low) * static_cast<double>(g) / static_cast<double>(terms.size() - 1));
+        terms[g].variance_mm2 = sigma * sigma;
+    }
+    std::vector<double> radii;
+    constexpr int radius_count = 96;
+    for (int i = 0; i < radius_count; ++i) {
+        radii.push_back(0.1 * nearest * std::pow(120 * farthest / nearest, (i + 1.0) / radius_count));
+    }
+    const std::vector<glm::dvec3> wanted = light_within(material, radii);
+    for (glm::length_t c = 0; c < 3; ++c) {
+        // Coordinate descent: the residual's projection on one Gaussian at a time,
+        // kept at 0 or above. It converges to the least squares since the problem
+        // is convex.
+        std::vector<std::vector<double>> columns;
+        for (const GaussianTerm& term : terms) {
+            std::vector<double> column;
+            for (const double r : radii) column.push_back(1 - std::exp(-r * r / (2 * term.variance_mm2)));
+            columns.push_back(std::move(column));
+        }
+        std::vector<double> residual;
+        for (const glm::dvec3& value : wanted) residual.push_back(value[c]);
+        std::vector<double> weights(terms.size(), 0.0);
+        for (int sweep = 0; sweep < 4000; ++sweep) {
+            for (std::size_t g = 0; g < terms.size(); ++g) {
+                double along = 0, length2 = 0;
+                for (std::size_t i = 0; i < residual.size(); ++i) {
+                    along += residual[i] * columns[g][i];
+                    length2 += columns[g][i] * columns[g][i];
+                }
+                const double next = std::max(0.0, weights[g] + along / length2), change = next - weights[g];
+                weights[g] = next;
+                for (std::size_t i = 0; i < residual.size(); ++i) residual[i] -= change * columns[g][i];
+            }
+        }
+        double sum = 0;
+        for (const double weight : weights) sum += weight;
+        for (std::size_t g = 0; g < terms.size(); ++g) terms[g].weight[c] = weights[g] / sum;
+    }
+    return terms;
 }
 
 }  // namespace blush

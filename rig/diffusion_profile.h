@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -44,6 +45,13 @@ struct ScatteringMaterial {
 
 /// marble, skin1, skin2, wholemilk, skimmilk, potato, apple, ketchup, cream, chicken1.
 std::span<const ScatteringMaterial> measured_materials();
+
+/// A sum of Gaussians that spreads light as the material's dipole does, each channel's weights summing to 1: the colour
+/// comes from an albedo. Non-negative least squares on how much light leaves within a distance. Ascending variance.
+std::vector<GaussianTerm> gaussians_of(const ScatteringMaterial& material);
+
+/// Most terms of any profile here.
+inline constexpr std::size_t most_gaussian_terms = 8;
 
 /// Dipole diffuse reflectance R_d(r), eq. 4 of Jensen et al. 2001, in 1/mm^2, not normalised.
 glm::dvec3 dipole_at(const ScatteringMaterial& material, double r_mm);

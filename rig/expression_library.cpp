@@ -1,7 +1,10 @@
 #include "rig/expression_library.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+
+#include "rig/wrinkle_zones.h"
 
 namespace blush {
 namespace {
@@ -132,50 +135,57 @@ constexpr ExpressionRow states[] = {
     {"cold", "a red nose and ears, pale cheeks", "AU7 0.15"},
 };
 
-/// The zones of jimenez-2012, table 8.1, in its order. The paper names them by the colours of figure 8.3; which is
-/// where, and which of a pair is left, is read from the weights and from figure 8.6 (Frontalis, Nasalis, Mentalis).
-constexpr std::array<std::string_view, 8> zones = {
-    "foreheadOuterLeft",   // red
-    "foreheadOuterRight",  // green
-    "foreheadInnerLeft",   // blue
-    "foreheadInnerRight",  // brown
-    "noseLeft",            // cyan
-    "noseRight",           // magenta
-    "glabella",            // orange
-    "chin",                // gray
-};
+constexpr std::size_t zone_count = wrinkle_zone_places.size();
 
 struct ZoneRow {
     std::string_view drivers;
-    std::array<float, zones.size()> weights;
+    std::array<float, zone_count> weights;  ///< in the order of wrinkle_zone_places
 };
 
-constexpr ZoneRow zone_rows[] = {
-    // jimenez-2012, table 8.1, as printed.
+/// jimenez-2012, table 8.1, as printed: its eight zones.
+constexpr ZoneRow printed_zone_rows[] = {
     {"joy", {1.0F, 1.0F, 0.2F, 0.2F, 0.0F, 0.0F, 0.0F, 0.0F}},
     {"surprise", {0.8F, 0.8F, 0.8F, 0.8F, 0.0F, 0.0F, 0.0F, 0.0F}},
     {"fear", {0.2F, 0.2F, 0.75F, 0.75F, 0.3F, 0.3F, 0.0F, 0.6F}},
     {"anger", {-0.6F, -0.6F, -0.8F, -0.8F, 0.8F, 0.8F, 1.0F, 0.0F}},
     {"disgust", {0.0F, 0.0F, -0.1F, -0.1F, 1.0F, 1.0F, 1.0F, 0.5F}},
     {"sadness", {0.2F, 0.2F, 0.75F, 0.75F, 0.0F, 0.0F, 0.1F, 1.0F}},
+};
+
+/// Added to the printed ones.
+constexpr ZoneRow own_zone_rows[] = {
+    // A smile folds no forehead: the outer zones of the paper reach down to the corners of the eyes, which are zones of
+    // their own here and take all of their weight. AU12 deepens the nasolabial fold (Ekman, Friesen, Hager 2002).
+    {"joy", {-1.0F, -1.0F, -0.2F, -0.2F, 0, 0, 0, 0, 1.0F, 1.0F, 0.9F, 0.9F}},
+    // By the units that these emotions have (AU9, AU10, AU11, AU20; AU6 in disgust).
+    {"disgust", {0, 0, 0, 0, 0, 0, 0, 0, 0.3F, 0.3F, 0.8F, 0.8F}},
+    {"sadness", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.3F, 0.3F}},
+    {"anger", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.25F, 0.25F}},
+    {"fear", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.2F, 0.2F}},
     // Surprise and anger together leave no wrinkle on the forehead (figure 8.5 and its text), but the printed weights
     // leave 0.8 - 0.6 on its outer zones: the rest goes where both act.
-    {"surprise+anger", {-0.2F, -0.2F, 0, 0, 0, 0, 0, 0}},
-    // Ours, so that a recorded performance wrinkles too: what the shapes do to the skin where no emotion above says it.
-    {"browInnerUpLeft", {0, 0, 0.8F, 0, 0, 0, 0, 0}},
-    {"browInnerUpRight", {0, 0, 0, 0.8F, 0, 0, 0, 0}},
-    {"browOuterUpLeft", {0.8F, 0, 0, 0, 0, 0, 0, 0}},
-    {"browOuterUpRight", {0, 0.8F, 0, 0, 0, 0, 0, 0}},
-    {"browDownLeft", {-0.6F, 0, -0.8F, 0, 0, 0, 0.5F, 0}},
-    {"browDownRight", {0, -0.6F, 0, -0.8F, 0, 0, 0.5F, 0}},
-    {"noseSneerLeft", {0, 0, 0, 0, 1.0F, 0, 0.25F, 0}},
-    {"noseSneerRight", {0, 0, 0, 0, 0, 1.0F, 0.25F, 0}},
-    {"mouthUpperUpLeft", {0, 0, 0, 0, 0.3F, 0, 0, 0}},
-    {"mouthUpperUpRight", {0, 0, 0, 0, 0, 0.3F, 0, 0}},
+    {"surprise+anger", {-0.2F, -0.2F}},
+    // So that a recorded performance wrinkles too: what the shapes do to the skin where no emotion above says it.
+    {"browInnerUpLeft", {0, 0, 0.8F}},
+    {"browInnerUpRight", {0, 0, 0, 0.8F}},
+    {"browOuterUpLeft", {0.8F}},
+    {"browOuterUpRight", {0, 0.8F}},
+    {"browDownLeft", {-0.6F, 0, -0.8F, 0, 0, 0, 0.5F}},
+    {"browDownRight", {0, -0.6F, 0, -0.8F, 0, 0, 0.5F}},
+    {"noseSneerLeft", {0, 0, 0, 0, 1.0F, 0, 0.25F, 0, 0, 0, 0.5F}},
+    {"noseSneerRight", {0, 0, 0, 0, 0, 1.0F, 0.25F, 0, 0, 0, 0, 0.5F}},
+    {"mouthUpperUpLeft", {0, 0, 0, 0, 0.3F, 0, 0, 0, 0, 0, 0.5F}},
+    {"mouthUpperUpRight", {0, 0, 0, 0, 0, 0.3F, 0, 0, 0, 0, 0, 0.5F}},
     {"mouthShrugLower", {0, 0, 0, 0, 0, 0, 0, 1.0F}},
     {"mouthFrownLeft", {0, 0, 0, 0, 0, 0, 0, 0.15F}},
     {"mouthFrownRight", {0, 0, 0, 0, 0, 0, 0, 0.15F}},
     {"mouthPucker", {0, 0, 0, 0, 0, 0, 0, 0.3F}},
+    {"cheekSquintLeft", {0, 0, 0, 0, 0, 0, 0, 0, 1.0F}},
+    {"cheekSquintRight", {0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0F}},
+    {"eyeSquintLeft", {0, 0, 0, 0, 0, 0, 0, 0, 0.4F}},
+    {"eyeSquintRight", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0.4F}},
+    {"mouthSmileLeft", {0, 0, 0, 0, 0, 0, 0, 0, 0.15F, 0, 0.9F}},
+    {"mouthSmileRight", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0.15F, 0, 0.9F}},
 };
 
 struct BloodRow {
@@ -281,6 +291,17 @@ std::vector<std::string> split_at_plus(std::string_view drivers) {
     return {std::string(drivers.substr(0, plus)), std::string(drivers.substr(plus + 1))};
 }
 
+/// To the row of the same drivers, where there is one.
+void add_zone_row(RigDescription& library, const ZoneRow& row) {
+    const std::vector<std::string> drivers = split_at_plus(row.drivers);
+    const auto known = std::ranges::find(library.wrinkles, drivers, &WrinkleRow::drivers);
+    if (known == library.wrinkles.end()) {
+        library.wrinkles.push_back({drivers, {row.weights.begin(), row.weights.end()}});
+        return;
+    }
+    for (std::size_t z = 0; z < zone_count; ++z) known->weights[z] += row.weights[z];
+}
+
 RigDescription make_library() {
     RigDescription library;
     add_action_units(library);
@@ -293,10 +314,11 @@ RigDescription make_library() {
     for (const ExpressionRow& row : states) add(row, ControlKind::state);
     // ARKit's mouthClose shuts the lips over an open jaw; more of it than of jawOpen pushes the lips into each other.
     library.limits.push_back({.control = "mouthClose", .low = 0, .high = 1, .with = "jawOpen", .holds_own = false});
-    for (const std::string_view zone : zones) library.wrinkle_zones.push_back({std::string(zone), 0, 1});
-    for (const ZoneRow& row : zone_rows) {
-        library.wrinkles.push_back({split_at_plus(row.drivers), {row.weights.begin(), row.weights.end()}});
+    for (const WrinkleZonePlace& zone : wrinkle_zone_places) {
+        library.wrinkle_zones.push_back({std::string(zone.name), 0, 1});
     }
+    for (const ZoneRow& row : printed_zone_rows) add_zone_row(library, row);
+    for (const ZoneRow& row : own_zone_rows) add_zone_row(library, row);
     for (const ExpressionRow& row : emotions) library.hemoglobin_maps.emplace_back(row.name);
     for (const ExpressionRow& row : states) library.hemoglobin_maps.emplace_back(row.name);
     for (const BloodRow& row : blood_rows) {

@@ -163,10 +163,11 @@ private:
     void material(std::size_t i) {
         const Material& m = face_.materials[i];
         require(finite(m.base_color_linear) && finite(m.emissive_linear) && finite(m.metallic) && finite(m.roughness) &&
-                    finite(m.normal_scale) && finite(m.occlusion_strength) && finite(m.alpha_cutoff),
+                    finite(m.normal_scale) && finite(m.specular) && finite(m.occlusion_strength) &&
+                    finite(m.alpha_cutoff),
                 "materials[", i, "]: a factor is not finite");
         for (const TextureUse* use :
-             {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb}) {
+             {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb, &m.specular_map}) {
             require(use->image >= -1 && use->image < static_cast<std::int64_t>(face_.images.size()), "materials[", i,
                     "]: a texture has no such image");
             require(use->uv_set <= 1, "materials[", i, "]: a texture uses a coordinate set beyond 1");

@@ -62,6 +62,12 @@ std::vector<glm::dvec3> colours(const SkinImage& image, std::span<const glm::dve
     return result;
 }
 
+/// Pixels a millimetre that light goes at a pixel of skin: fewer where the strength map says less (jimenez-2012, 6.3).
+glm::dvec2 reach_pixels(const SkinImage& image, const ScatterProjection& projection, std::size_t p, double depth_mm) {
+    const double strength = image.strength.empty() ? 1 : image.strength[p] / image.light[p].a;
+    return projection.pixels_a_mm(depth_mm) * strength;
+}
+
 /// Depth's change to the next pixel in a direction, at a pixel of skin: 0 where the next one is not skin.
 double gradient_mm(const SkinImage& image, std::size_t p, int direction) {
     const std::size_t x = p % image.width, y = p / image.width;
@@ -84,7 +90,7 @@ std::vector<glm::dvec3> scatter_separable(const SkinImage& image, std::span<cons
     for (int direction = 0; direction < 2; ++direction) {
         std::vector<glm::dvec4> next(light.size(), glm::dvec4(0));
         each_skin_pixel(image, light, [&](std::size_t p, glm::dvec2 at, double matte, glm::dvec3 centre, double depth) {
-            const double scale = projection.pixels_a_mm(depth)[direction];
+            const double scale = reach_pixels(image, projection, p, depth)[direction];
             glm::dvec3 sum = centre;
             for (const KernelTap& tap : taps) {
                 if (tap.offset_mm == 0) continue;
@@ -111,17 +117,18 @@ std::vector<glm::dvec3> scatter_gaussians(const SkinImage& image, std::span<cons
     glm::dvec3 weight_so_far = profile[0].weight;
     for (std::size_t g = 1; g < profile.size(); ++g) {
         const double sigma_mm = std::sqrt(profile[g].variance_mm2 - profile[g - 1].variance_mm2);
-        const auto too_narrow = [&](double depth) {
-            return std::sqrt(profile[g].variance_mm2) * projection.pixels_a_mm(depth).y <= 0.5;  // eq. 4.5
+        const auto too_narrow = [&](std::size_t p, double depth) {
+            return std::sqrt(profile[g].variance_mm2) * reach_pixels(image, projection, p, depth).y <= 0.5;  // eq. 4.5
         };
         for (int direction = 0; direction < 2; ++direction) {
             std::vector<glm::dvec4> next = light;
             each_skin_pixel(
                 image, light, [&](std::size_t p, glm::dvec2 at, double matte, glm::dvec3 centre, double depth) {
-                    if (too_narrow(depth)) return;
+                    if (too_narrow(p, depth)) return;
                     const double slope = beta * std::min(std::abs(gradient_mm(image, p, direction)), gamma_mm);
                     const double scale =
-                        projection.pixels_a_mm(depth + projection.perspective * slope)[direction] * sigma_mm;
+                        reach_pixels(image, projection, p, depth + projection.perspective * slope)[direction] *
+                        sigma_mm;
                     glm::dvec3 blurred = centre;
                     for (int k = -3; k <= 3; ++k) {
                         if (k == 0) continue;
@@ -137,7 +144,7 @@ std::vector<glm::dvec3> scatter_gaussians(const SkinImage& image, std::span<cons
         weight_so_far += profile[g].weight;
         const glm::dvec3 share = profile[g].weight / weight_so_far;  // eq. 4.8
         each_skin_pixel(image, light, [&](std::size_t p, glm::dvec2, double, glm::dvec3 colour, double depth) {
-            if (!too_narrow(depth)) sum[p] = glm::mix(sum[p], colour, share);
+            if (!too_narrow(p, depth)) sum[p] = glm::mix(sum[p], colour, share);
         });
     }
     return sum;
@@ -174,7 +181,7 @@ std::vector<glm::dvec3> scatter_jittered(const SkinImage& image, const JitteredK
                                          const ScatterProjection& projection, double follow_mm) {
     std::vector<glm::dvec3> result(image.light.size(), glm::dvec3(0));
     each_skin_pixel(image, image.light, [&](std::size_t p, glm::dvec2 at, double, glm::dvec3 centre, double depth) {
-        const glm::dvec2 scale = projection.pixels_a_mm(depth);
+        const glm::dvec2 scale = reach_pixels(image, projection, p, depth);
         const double turn =
             jitter_radians(static_cast<std::uint32_t>(p % image.width), static_cast<std::uint32_t>(p / image.width));
         glm::dvec3 sum = centre;
@@ -197,7 +204,7 @@ std::vector<glm::dvec3> scatter_exact(const SkinImage& image, std::span<const Ga
     std::vector<std::vector<double>> across(profile.size()), down(profile.size());
     each_skin_pixel(image, image.light, [&](std::size_t p, glm::dvec2, double, glm::dvec3 centre, double depth) {
         if (p % image.width % every != 0 || p / image.width % every != 0) return;
-        const glm::dvec2 scale = projection.pixels_a_mm(depth);
+        const glm::dvec2 scale = glm::max(reach_pixels(image, projection, p, depth), glm::dvec2(1e-6));
         const auto x = static_cast<int>(p % image.width), y = static_cast<int>(p / image.width);
         const int reach_x = static_cast<int>(std::min(std::ceil(reach_mm * scale.x), image.width * 1.0));
         const int reach_y = static_cast<int>(std::min(std::ceil(reach_mm * scale.y), image.height * 1.0));

@@ -19,6 +19,8 @@ struct SkinImage {
     std::uint32_t width = 0, height = 0;
     std::vector<glm::dvec4> light;  ///< rgb times matte, matte
     std::vector<double> depth_mm;   ///< times matte
+    std::vector<double> strength;   ///< factor on how far light goes, 0 to 1, times
+                                    ///< matte; empty: 1 everywhere
     glm::dvec4& at(std::uint32_t x, std::uint32_t y) { return light[std::size_t{y} * width + x]; }
 };
 

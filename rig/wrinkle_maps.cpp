@@ -17,19 +17,24 @@ using Field = std::vector<float>;
 
 /// Compression is smoothed over about this distance: folds do not follow single triangles.
 constexpr float smoothing_mm = 4;
-/// A source of a few shapes shows where a zone is; within about this distance of it, whole expressions count too.
+/// Of a zone without a place, a source of a few shapes shows where it is; within about this distance of it, whole
+/// expressions count too.
 constexpr float reach_mm = 12;
 constexpr std::size_t few_shapes = 3;
 /// Folds of one forehead differ in depth: this much of it, over patches of about this size. By eye.
 constexpr float depth_variation = 0.6F;
 constexpr float patch_mm = 6;
-/// Share of a zone's full compression at which its mask begins: what an expression drags along does not fold.
-constexpr float mask_begins = 0.3F;
+/// Shares of a zone's full compression at which its mask begins and is full. Without a place, what an expression only
+/// drags along must not fold; with one, that is kept out already, and folds go on until the skin rests.
+struct MaskRange {
+    float begins, full;
+};
+constexpr MaskRange anywhere = {0.3F, 1}, placed = {0.1F, 0.6F};
 /// Skin that gets shorter by this part or less does not fold.
 constexpr float least_compression = 0.01F;
 /// Share of the shortening that goes into folds; the rest thickens the tissue. By eye: furrows of a forehead are then
-/// 0.2 to 0.5 mm deep at 8 mm from one to the next.
-constexpr float folded_share = 0.07F;
+/// 0.25 to 0.6 mm deep at 8 mm from one to the next.
+constexpr float folded_share = 0.1F;
 
 /// The surface at a texel, in the mesh's axes, millimetres.
 struct Chart {
@@ -39,14 +44,19 @@ struct Chart {
 
 class Baker {
 public:
-    Baker(const Face& face, std::span<const std::uint8_t> skin, const WrinkleBake& settings)
+    Baker(const Face& face, std::span<const std::uint8_t> skin, const WrinkleBake& settings,
+          std::span<const WrinkleZoneField> places)
         : face_(face),
           settings_(settings),
+          places_(places),
           raster_(rasterize_uv(face, skin, settings.uv_set, settings.map_side, settings.map_side)),
           nearest_(nearest_covered(raster_)),
           place_(weld(face.positions)) {}
 
     bool empty() const { return nearest_.empty(); }
+    bool is_placed(std::size_t zone) const { return !places_.empty() && !places_[zone].share.values.empty(); }
+    /// How far a texel lies in a zone's place.
+    float share(std::size_t zone, std::size_t i) const { return is_placed(zone) ? places_[zone].share.values[i] : 1; }
 
     void make_charts() {
         charts_.resize(raster_.texels.size());
@@ -67,8 +77,7 @@ public:
     void add_source(const WrinkleSource& source) {
         std::vector<ActiveTarget> active;
         find_active(source.target_weights, active);
-        const float strongest = *std::ranges::max_element(source.zone_weights);
-        if (active.empty() || strongest <= 0) return;
+        if (active.empty() || *std::ranges::max_element(source.zone_weights) <= 0) return;
         std::vector<glm::vec3> positions = face_.positions, normals = face_.normals;
         std::vector<glm::vec4> tangents = face_.tangents;
         add_targets(face_, active, positions, normals, tangents);
@@ -78,6 +87,9 @@ public:
         for (std::size_t i = 0; i < amounts.size(); ++i) {
             if (!raster_.covered(i)) continue;
             const auto tensor = interpolate(compression, i);
+            float strongest = 0;
+            for (std::size_t zone = 0; zone < source.zone_weights.size(); ++zone)
+                strongest = std::max(strongest, source.zone_weights[zone] * share(zone, i));
             total_[i] += tensor * static_cast<double>(strongest);
             amounts[i] = static_cast<float>(principal_compression(tensor, charts_[i].normal).amount);
         }
@@ -98,13 +110,13 @@ public:
         expressions_.resize(zones);
     }
 
-    /// Compression of a zone: its local sources, and of whole expressions what lies near to them.
+    /// Compression of a zone: its local sources, and of whole expressions what lies in its place, or near to them.
     Field zone_field(std::size_t zone) const {
         Field field = local_[zone].empty() ? Field(raster_.texels.size(), 0) : local_[zone];
         const Field& expression = expressions_[zone];
         if (expression.empty()) return field;
         Field reach;
-        if (!local_[zone].empty()) {
+        if (!local_[zone].empty() && !is_placed(zone)) {
             reach = smoothed(local_[zone], reach_mm);
             const float most = std::max(*std::ranges::max_element(reach), 1e-9F);
             // Full down to half of the strongest, fading out below a tenth.
@@ -116,9 +128,11 @@ public:
     }
 
     /// What counts as full compression of a zone: its 95th percentile where it is pressed at all.
-    static float full_compression(const Field& field) {
+    float full_compression(std::size_t zone, const Field& field) const {
         std::vector<float> pressed;
-        std::ranges::copy_if(field, std::back_inserter(pressed), [](float value) { return value > least_compression; });
+        for (std::size_t i = 0; i < field.size(); ++i) {
+            if (field[i] > least_compression && share(zone, i) > 0.5F) pressed.push_back(field[i]);
+        }
         if (pressed.empty()) return 0;
         const auto place = pressed.begin() + static_cast<std::ptrdiff_t>(pressed.size() * 95 / 100);
         std::ranges::nth_element(pressed, place);
@@ -134,6 +148,16 @@ public:
                 for (std::size_t i = 0; i < component.size(); ++i)
                     total_[i][c][r] = total_[i][r][c] = static_cast<double>(component[i]);
             }
+        }
+    }
+
+    /// Where a zone is a single crease, its profile: a valley along the line, the skin on the far side heaped up beside
+    /// it.
+    void crease(std::size_t zone, Field& folds) const {
+        if (!is_placed(zone) || places_[zone].crease_mm.values.empty()) return;
+        for (std::size_t i = 0; i < folds.size(); ++i) {
+            if (share(zone, i) > 0)
+                folds[i] = glm::mix(folds[i], creased(places_[zone].crease_mm.values[i]), share(zone, i));
         }
     }
 
@@ -202,6 +226,14 @@ public:
     UvRaster take_raster() { return std::move(raster_); }
 
 private:
+    /// -1 on the line, up to 1 half a fold beyond it, 0 at a whole one; on the near side it only rises to 0.
+    float creased(float side_mm) const {
+        constexpr float two_pi = 6.28318531F;
+        const float turn = std::min(std::abs(side_mm) / settings_.spacing_mm, 1.0F);
+        if (side_mm < 0) return turn < 0.5F ? -0.5F - 0.5F * std::cos(two_pi * turn) : 0;
+        return turn < 0.5F ? -std::cos(two_pi * turn) : 0.5F - 0.5F * std::cos(two_pi * turn);
+    }
+
     Compression interpolate(const std::vector<Compression>& of_vertex, std::size_t i) const {
         const UvTexel& at = raster_.texels[i];
         const std::uint32_t* const corners = &face_.indices[std::size_t{at.triangle} * 3];
@@ -292,6 +324,7 @@ private:
 
     const Face& face_;
     WrinkleBake settings_;
+    std::span<const WrinkleZoneField> places_;
     UvRaster raster_;
     std::vector<std::uint32_t> nearest_, place_;
     std::vector<Chart> charts_;
@@ -303,11 +336,12 @@ private:
 }  // namespace
 
 WrinkleMaps bake_wrinkles(const Face& face, std::span<const std::uint8_t> skin, std::span<const WrinkleSource> sources,
-                          const WrinkleBake& settings) {
+                          const WrinkleBake& settings, std::span<const WrinkleZoneField> places) {
     assert(!sources.empty() && settings.map_side > 0 && settings.mask_side > 0);
     assert(settings.spacing_mm > 0 && settings.millimetres_a_unit > 0);
     const std::size_t zones = sources[0].zone_weights.size();
-    Baker baker(face, skin, settings);
+    assert((places.empty() || places.size() == zones) && "one place for each zone, or none at all");
+    Baker baker(face, skin, settings, places);
     const std::size_t map_texels = std::size_t{settings.map_side} * settings.map_side;
     WrinkleMaps maps;
     maps.displacement_mm = ScalarMap(settings.map_side, settings.map_side);
@@ -327,9 +361,13 @@ WrinkleMaps bake_wrinkles(const Face& face, std::span<const std::uint8_t> skin, 
     std::vector<float> full;
     for (std::size_t zone = 0; zone < zones; ++zone) {
         masks.push_back(baker.zone_field(zone));
-        full.push_back(Baker::full_compression(masks.back()));
-        for (float& value : masks.back()) {
-            value = full[zone] > 0 ? glm::smoothstep(mask_begins, 1.0F, value / full[zone]) : 0;
+        full.push_back(baker.full_compression(zone, masks.back()));
+        const MaskRange range = baker.is_placed(zone) ? placed : anywhere;
+        for (std::size_t i = 0; i < map_texels; ++i) {
+            float& value = masks.back()[i];
+            value = full[zone] > 0
+                        ? baker.share(zone, i) * glm::smoothstep(range.begins, range.full, value / full[zone])
+                        : 0;
         }
     }
     Field compression(map_texels, 0);  // full compression of the zones that a texel belongs to
@@ -345,7 +383,8 @@ WrinkleMaps bake_wrinkles(const Face& face, std::span<const std::uint8_t> skin, 
     }
 
     baker.smooth_total();
-    const Field folds = grow_folds(baker.wave_vectors(), settings.map_side, settings.map_side, settings.seed);
+    Field folds = grow_folds(baker.wave_vectors(), settings.map_side, settings.map_side, settings.seed);
+    for (std::size_t zone = 0; zone < zones; ++zone) baker.crease(zone, folds);
     const Field depths = baker.depths();
     for (std::size_t i = 0; i < map_texels; ++i) {
         // A sine of amplitude A and wavelength L is longer than its base by (pi A / L)^2, to second order: the length

@@ -10,6 +10,7 @@
 #include "rig/derivative_map.h"
 #include "rig/face.h"
 #include "rig/uv_raster.h"
+#include "rig/wrinkle_zones.h"
 
 namespace blush {
 
@@ -37,8 +38,9 @@ struct WrinkleMaps {
 };
 
 /// skin: one entry for each primitive, 0 leaves it out. sources: at least one; zones are counted by the first. A face
-/// without texture coordinates or a zone that nothing presses together gives empty masks (all 0).
+/// without texture coordinates or a zone that nothing presses together gives empty masks (all 0). places: of each zone,
+/// where it may be, in maps of map_side x map_side texels; none at all: anywhere.
 WrinkleMaps bake_wrinkles(const Face& face, std::span<const std::uint8_t> skin, std::span<const WrinkleSource> sources,
-                          const WrinkleBake& settings);
+                          const WrinkleBake& settings, std::span<const WrinkleZoneField> places = {});
 
 }  // namespace blush

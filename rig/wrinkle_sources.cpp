@@ -19,7 +19,7 @@ std::vector<WrinkleSource> wrinkle_sources(const Rig& rig, const RigDescription&
         if (!known) continue;
         rig.evaluate(controls, pose);
         if (std::ranges::all_of(pose.weights, [](float weight) { return weight == 0; })) continue;
-        sources.push_back({pose.weights, row.weights});
+        sources.push_back({pose.weights, pose.wrinkles});
     }
     return sources;
 }

@@ -9,7 +9,7 @@
 namespace blush {
 
 /// One for each row of the description's wrinkle weights whose drivers move a target: the pose with those drivers at
-/// full strength. `rig` is the rig of `description`.
+/// full strength, and what the rig makes of them. `rig` is the rig of `description`.
 std::vector<WrinkleSource> wrinkle_sources(const Rig& rig, const RigDescription& description);
 
 }  // namespace blush

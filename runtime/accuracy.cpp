@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "rig/head_and_eyes.h"
+#include "rig/face_scale.h"
 #include "runtime/effect.h"
 
 namespace blush {
@@ -54,20 +54,11 @@ MeasuredStudy measure(const Study& study, std::string_view effect, std::size_t r
         const Variant::Error error = variant.error();
         measured.variants.push_back({variant.label, variant.work, variant.is_default, error.mean, error.worst,
                                      quantile(times[v], 0.5), quantile(times[v], 0.25), quantile(times[v], 0.75),
-                                     quantile(ratios, 0.5), quantile(ratios, 0.25), quantile(ratios, 0.75), false});
+                                     quantile(ratios, 0.5), quantile(ratios, 0.25), quantile(ratios, 0.75),
+                                     error.channel_mean, error.channel_worst, false});
     }
     mark_frontier(measured.variants);
     return measured;
-}
-
-double head_scale(const Face& face) {
-    // Height of a head with the beginning of its neck: 232 mm for an adult man from vertex to chin (Farkas 1994), and a
-    // little of what is below.
-    constexpr double head_mm = 240;
-    Bounds bounds;
-    for (const glm::vec3 position : face.positions) bounds.add(position);
-    const glm::vec3 size = bounds.size();
-    return head_mm / static_cast<double>(std::max({size.x, size.y, size.z, 1e-12F}));
 }
 
 }  // namespace
@@ -77,7 +68,8 @@ Result<AccuracyReport> measure_accuracy(const Device& device, const Face& face, 
     report.face = face.path;
     report.renderer = device.info().renderer;
     report.rounds = options.quick ? 7 : 41;  // odd, so that the median is a measured value
-    report.millimetres_a_unit = options.millimetres_a_unit > 0 ? options.millimetres_a_unit : head_scale(face);
+    report.millimetres_a_unit =
+        options.millimetres_a_unit > 0 ? options.millimetres_a_unit : face_scale(face).millimetres_a_unit;
     std::string known;
     bool found = false;
     for (const Effect* effect : effects()) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Error against time, for every registered effect and setting (promise 1: show what accuracy costs in time).
 
+#include <array>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -13,9 +14,9 @@
 namespace blush {
 
 struct AccuracyOptions {
-    std::string effect;             ///< one effect by name, or empty for all
-    bool quick = false;             ///< fewer rounds, and only the largest study of each effect
-    double millimetres_a_unit = 0;  ///< scale of the face; 0: its largest extent is taken as a head of 240 mm
+    std::string effect;                              ///< one effect by name, or empty for all
+    bool quick = false;                              ///< fewer rounds, and only the largest study of each effect
+    double millimetres_a_unit = 0;                   ///< scale of the face; 0: found from the face (rig/face_scale.h)
     std::function<void(std::string_view)> progress;  ///< called with each study's name as it starts; may be empty
 };
 
@@ -25,8 +26,9 @@ struct MeasuredVariant {
     double error_mean = 0, error_worst = 0;         ///< in the study's unit
     double median_ms = 0, low_ms = 0, high_ms = 0;  ///< median and quartiles of the rounds
     double ratio_to_default = 1;  ///< median over the rounds of this variant's time / the default's in the same round
-    double ratio_low = 1, ratio_high = 1;  ///< quartiles of that ratio
-    bool on_frontier = false;              ///< no other variant is both at least as fast and more exact
+    double ratio_low = 1, ratio_high = 1;                   ///< quartiles of that ratio
+    std::array<double, 3> channel_mean{}, channel_worst{};  ///< of red, green and blue, where the study tells
+    bool on_frontier = false;  ///< no other variant is both at least as fast and more exact
 };
 
 struct MeasuredStudy {

@@ -6,8 +6,11 @@
 #include <cmath>
 
 #include "rig/skin_colour_table.h"
+#include "rig/texture_bytes.h"
 #include "runtime/effect.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/signed_texture.h"
+#include "runtime/wrinkle_bake.h"
 
 namespace blush {
 namespace {
@@ -34,58 +37,40 @@ int levels_of(std::uint32_t width, std::uint32_t height) {
     return 1 + static_cast<int>(std::log2(std::max({width, height, 1U})));
 }
 
-/// The first `channels` of a map within -1..1, with its mip levels: without them folds flicker once they are narrower
-/// than a pixel. The levels are averaged here, since GL does not make those of compressed textures.
-gl::Texture signed_texture(GLenum format, Map<glm::vec3> map, std::size_t channels, bool floats) {
-    const int levels = levels_of(map.width, map.height);
-    gl::Texture texture = texture_2d(format, map.width, map.height, levels);
-    const GLenum components = channels == 2 ? GL_RG : GL_RGB;
-    for (int level = 0; level < levels; ++level) {
-        if (level > 0) map = resized(map, std::max(map.width / 2, 1U), std::max(map.height / 2, 1U));
-        std::vector<float> values;
-        std::vector<std::int8_t> bytes;
-        for (const glm::vec3& texel : map.values) {
-            for (std::size_t c = 0; c < channels; ++c) {
-                values.push_back(texel[static_cast<glm::length_t>(c)]);
-                bytes.push_back(stored_derivative(values.back(), 1));
-            }
-        }
-        if (floats) {
-            upload(texture, map.width, map.height, components, GL_FLOAT, values, level);
-        } else {
-            upload(texture, map.width, map.height, components, GL_BYTE, bytes, level);
-        }
-    }
-    return texture;
-}
-
-/// Compression is the driver's own.
 gl::Texture derivative_texture(const WrinkleSet& set, WrinkleStorage storage) {
     constexpr std::array<GLenum, 3> formats = {GL_COMPRESSED_SIGNED_RG_RGTC2, GL_RG8_SNORM, GL_RG16F};
     Map<glm::vec3> scaled(set.derivatives.width, set.derivatives.height);
     for (std::size_t i = 0; i < scaled.values.size(); ++i)
         scaled.values[i] = glm::vec3(set.derivatives.values[i] / set.range, 0);
-    return signed_texture(formats[static_cast<std::size_t>(storage)], std::move(scaled), 2,
-                          storage == WrinkleStorage::half_float);
+    return make_signed_texture(formats[static_cast<std::size_t>(storage)], std::move(scaled), 2);
 }
 
 /// Differences need three channels, which RGTC has not (8.2.1): plain bytes, or half floats.
 gl::Texture difference_texture(const Map<glm::vec3>& map, WrinkleStorage storage) {
-    const bool floats = storage == WrinkleStorage::half_float;
-    return signed_texture(floats ? GL_RGB16F : GL_RGB8_SNORM, map, 3, floats);
+    return make_signed_texture(storage == WrinkleStorage::half_float ? GL_RGB16F : GL_RGB8_SNORM, map, 3);
 }
 
-gl::Texture mask_texture(const std::vector<ScalarMap>& masks, std::size_t first) {
-    const std::uint32_t width = masks[0].width, height = masks[0].height;
-    std::vector<std::uint8_t> bytes(std::size_t{width} * height * 4, 0);
-    for (std::size_t c = 0; c < 4 && first + c < masks.size(); ++c) {
-        for (std::size_t i = 0; i < masks[first + c].values.size(); ++i)
-            bytes[4 * i + c] = static_cast<std::uint8_t>(masks[first + c].values[i] * 255.0F + 0.5F);
+gl::Texture mask_texture(const std::vector<ScalarMap>& masks) {
+    const auto width = static_cast<GLsizei>(masks[0].width), height = static_cast<GLsizei>(masks[0].height);
+    gl::Texture texture = gl::make_texture(GL_TEXTURE_2D_ARRAY);
+    const std::size_t layers = wrinkle_masks_for(masks.size());
+    glTextureStorage3D(texture.name(), 1, GL_RGBA8, width, height, static_cast<GLsizei>(layers));
+    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    const std::size_t texels = masks[0].values.size();
+    for (std::size_t layer = 0; layer < layers; ++layer) {
+        std::vector<std::uint8_t> bytes(4 * texels, 0);
+        for (std::size_t c = 0; c < 4 && 4 * layer + c < masks.size(); ++c) {
+            const ScalarMap& mask = masks[4 * layer + c];
+            for (std::size_t i = 0; i < texels; ++i)
+                bytes[4 * i + c] = static_cast<std::uint8_t>(mask.values[i] * 255.0F + 0.5F);
+        }
+        glTextureSubImage3D(texture.name(), 0, 0, 0, static_cast<GLint>(layer), width, height, 1, GL_RGBA,
+                            GL_UNSIGNED_BYTE, bytes.data());
     }
-    gl::Texture texture = texture_2d(GL_RGBA8, width, height);
-    upload(texture, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
     return texture;
 }
+static_assert(most_wrinkle_masks == BLUSH_MOST_WRINKLE_MASKS);
 
 /// The base normal map of the skin, or one without texels.
 NormalMap base_normals(const CharacterState& state) {
@@ -95,15 +80,10 @@ NormalMap base_normals(const CharacterState& state) {
         if (!state.skin_material[m] || material.normal.image < 0) continue;
         const Image& image = state.face.images[static_cast<std::size_t>(material.normal.image)];
         if (image.channels < 3) continue;
-        base = NormalMap(image.width, image.height);
-        for (std::size_t i = 0; i < base.values.size(); ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::size_t k = i * image.channels + c;
-                const float stored = image.bytes.empty() ? image.floats[k] : static_cast<float>(image.bytes[k]) / 255;
-                base.values[i][static_cast<glm::length_t>(c)] = 2 * stored - 1;
-            }
-            base.values[i].x *= material.normal_scale;
-            base.values[i].y *= material.normal_scale;
+        base = normals_of(image);
+        for (glm::vec3& normal : base.values) {
+            normal.x *= material.normal_scale;
+            normal.y *= material.normal_scale;
         }
         return base;
     }
@@ -142,9 +122,7 @@ WrinkleTextures& wrinkle_textures(CharacterState& state) {
     const WrinkleSet& set = *state.appearance.wrinkles;
     const auto storage = static_cast<WrinkleStorage>(state.settings.choice(wrinkles_effect.name, "storage"));
     const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
-    if (!textures.masks[0]) {
-        for (std::size_t m = 0; m < 2; ++m) textures.masks[m] = mask_texture(set.masks, 4 * m);
-    }
+    if (!textures.masks) textures.masks = mask_texture(set.masks);
     if (textures.storage != storage) {
         textures.derivatives = {};
         textures.differences = {};
@@ -154,29 +132,71 @@ WrinkleTextures& wrinkle_textures(CharacterState& state) {
     if (differences && !textures.differences)
         textures.differences = difference_texture(normal_differences(set.derivatives, base_normals(state)), storage);
 
-    const std::uint64_t map_texels = set.derivatives.values.size(), mask_texels = set.masks[0].values.size();
-    constexpr std::array<std::uint64_t, 3> derivative_bytes = {1, 2, 4}, difference_bytes = {3, 3, 6};
-    const auto& a_texel = differences ? difference_bytes : derivative_bytes;
-    textures.bytes = map_texels * a_texel[static_cast<std::size_t>(storage)] + 2 * 4 * mask_texels;
+    const auto map_bytes = [&](std::uint32_t width, std::uint32_t height) {
+        constexpr std::array<std::uint64_t, 3> derivative_bytes = {0, 2, 4}, difference_bytes = {3, 3, 6};
+        const auto& a_texel = differences ? difference_bytes : derivative_bytes;
+        const std::uint64_t bytes = a_texel[static_cast<std::size_t>(storage)];
+        return bytes == 0 ? rgtc2_bytes(width, height) : bytes * width * height;
+    };
+    textures.bytes =
+        with_mip_levels(set.derivatives.width, set.derivatives.height, map_bytes) + wrinkle_bytes(set).masks;
     return textures;
 }
 
+std::vector<float> zone_weights_of(const CharacterState& state) {
+    const std::span<const std::string> known = state.rig.wrinkle_zones();
+    std::vector<float> weights;
+    for (const std::string& zone : state.appearance.wrinkles->zones) {
+        const auto found = std::ranges::find(known, zone);
+        weights.push_back(found == known.end() ? 0
+                                               : state.pose.wrinkles[static_cast<std::size_t>(found - known.begin())]);
+    }
+    return weights;
+}
+
+bool colour_from_pigments(const CharacterState& state) {
+    return state.settings.choice(blood_effect.name, "colour") == 1;
+}
+
+namespace {
+
+void make_table(BloodTextures& textures, std::uint32_t nodes) {
+    if (textures.table_nodes == nodes) return;
+    textures.table_nodes = nodes;
+    const SkinColourTable table(nodes, nodes);
+    // Four channels: texels of three halves are slow to fetch, for software rasterisers and some GPUs alike.
+    std::vector<glm::vec4> texels;
+    for (const glm::vec3& colour : table.texels()) texels.emplace_back(colour, 1);
+    textures.table = texture_2d(GL_RGBA16F, nodes, nodes);
+    upload(textures.table, nodes, nodes, GL_RGBA, GL_FLOAT, texels);
+    glTextureParameteri(textures.table.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(textures.table.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void make_residual(BloodTextures& textures, const ColourMap& map) {
+    if (textures.residual) return;
+    constexpr float largest_half = 65504;
+    std::vector<glm::vec4> texels;
+    for (const glm::vec3& factor : map.values)
+        texels.emplace_back(glm::clamp(factor, glm::vec3(0), glm::vec3(largest_half)), 1);
+    textures.residual = texture_2d(GL_RGBA16F, map.width, map.height, levels_of(map.width, map.height));
+    upload(textures.residual, map.width, map.height, GL_RGBA, GL_FLOAT, texels);
+    glGenerateTextureMipmap(textures.residual.name());
+}
+
+}  // namespace
+
 BloodTextures& blood_textures(CharacterState& state) {
     BloodTextures& textures = state.own<BloodTextures>();
-    if (textures.pigments) return textures;
     const SkinPigments& pigments = *state.appearance.pigments;
+    make_table(textures, static_cast<std::uint32_t>(state.settings.number(blood_effect.name, "table_nodes")));
+    if (colour_from_pigments(state)) make_residual(textures, pigments.maps.residual);
+    if (textures.pigments) return textures;
     const std::uint32_t width = pigments.maps.skin.width, height = pigments.maps.skin.height;
     const int levels = levels_of(width, height);
     textures.pigments = texture_2d(GL_RGBA8, width, height, levels);
     upload(textures.pigments, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pigment_texels(pigments.maps));
     glGenerateTextureMipmap(textures.pigments.name());
-
-    const SkinColourTable table;
-    textures.table = texture_2d(GL_RGB16F, table.melanin_nodes(), table.hemoglobin_nodes());
-    upload(textures.table, table.melanin_nodes(), table.hemoglobin_nodes(), GL_RGB, GL_FLOAT,
-           std::vector<glm::vec3>(table.texels().begin(), table.texels().end()));
-    glTextureParameteri(textures.table.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(textures.table.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 
     const HemoglobinMaps& blood = pigments.blood;
     for (const std::string& name : state.rig.hemoglobin_maps()) {
@@ -241,25 +261,22 @@ void bind_appearance(CharacterState& state, bool wrinkles, bool blood) {
     if (wrinkles) {
         const WrinkleTextures& textures = wrinkle_textures(state);
         const WrinkleSet& set = *state.appearance.wrinkles;
-        const std::span<const std::string> zones = state.rig.wrinkle_zones();
-        for (std::size_t z = 0; z < set.zones.size(); ++z) {
-            const auto found = std::ranges::find(zones, set.zones[z]);
-            if (found == zones.end()) continue;
-            block.wrinkle_weights[z / 4][static_cast<glm::length_t>(z % 4)] =
-                state.pose.wrinkles[static_cast<std::size_t>(found - zones.begin())];
-        }
+        const std::vector<float> weights = zone_weights_of(state);
+        for (std::size_t z = 0; z < weights.size(); ++z)
+            block.wrinkle_weights[z / 4][static_cast<glm::length_t>(z % 4)] = weights[z];
         block.wrinkle_range.x = set.range;
         const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
         glBindTextureUnit(BLUSH_WRINKLE_MAP_UNIT, (differences ? textures.differences : textures.derivatives).name());
-        glBindTextureUnit(BLUSH_WRINKLE_MASK_1_UNIT, textures.masks[0].name());
-        glBindTextureUnit(BLUSH_WRINKLE_MASK_2_UNIT, textures.masks[1].name());
+        glBindTextureUnit(BLUSH_WRINKLE_MASKS_UNIT, textures.masks.name());
     }
     if (blood) {
         const BloodTextures& textures = blood_textures(state);
-        block.blood = {state.pose.hemoglobin_factor, static_cast<float>(largest_hemoglobin), 0, 0};
+        block.blood = {state.pose.hemoglobin_factor, static_cast<float>(largest_hemoglobin),
+                       static_cast<float>(textures.table_nodes), 0};
         glBindTextureUnit(BLUSH_PIGMENT_UNIT, textures.pigments.name());
         glBindTextureUnit(BLUSH_BLOOD_CHANGE_UNIT, textures.blended.name());
         glBindTextureUnit(BLUSH_SKIN_COLOR_UNIT, textures.table.name());
+        if (colour_from_pigments(state)) glBindTextureUnit(BLUSH_RESIDUAL_UNIT, textures.residual.name());
     }
     for (GLuint unit = BLUSH_WRINKLE_MAP_UNIT; unit <= BLUSH_SKIN_COLOR_UNIT; ++unit) glBindSampler(unit, 0);
     auto& buffer = state.own<AppearanceBuffer>().buffer;

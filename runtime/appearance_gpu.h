@@ -2,6 +2,7 @@
 /// The GPU side of a face's appearance maps, made when the first frame needs them.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "rig/derivative_map.h"
@@ -19,25 +20,33 @@ enum class WrinkleStorage : std::uint8_t {
 };
 
 struct WrinkleTextures {
-    gl::Texture derivatives, differences;  ///< each made when its encoding is first asked for
-    gl::Texture masks[2];
+    gl::Texture derivatives, differences;                 ///< each made when its encoding is first asked for
+    gl::Texture masks;                                    ///< a layer for every four zones
     WrinkleStorage storage = WrinkleStorage::compressed;  ///< of both maps
-    std::uint64_t bytes = 0;                              ///< of the map in use and the masks
+    std::uint64_t bytes = 0;                              ///< of the map in use with its mip levels, and the masks
 };
 
 struct BloodTextures {
     gl::Texture pigments, table;
+    gl::Texture residual;             ///< made when the colour is first asked for from the pigments alone
+    std::uint32_t table_nodes = 0;    ///< of a side of `table`
     gl::Texture changes;              ///< a layer for each map that the face has
     gl::Texture blended;              ///< the changes by the shares of the pose
     std::vector<std::int32_t> layer;  ///< of each of Rig::hemoglobin_maps(), -1 where the face has no map for it
     gl::Program blend_program;
-    gl::Framebuffer blend_framebuffer;  ///< draws into `blended`
-    std::vector<float> blended_shares;  ///< what `blended` holds; empty: nothing yet
+    gl::Framebuffer blend_framebuffer;                 ///< draws into `blended`
+    std::optional<std::vector<float>> blended_shares;  ///< what `blended` holds, if anything yet
 };
 
 struct AppearanceBuffer {
     gl::Buffer buffer;  ///< shared::AppearanceBlock
 };
+
+/// The pose's weight of each zone of the face's wrinkle maps; 0 for those that the rig does not know.
+std::vector<float> zone_weights_of(const CharacterState& state);
+
+/// Whether the skin's colour is residual * table(melanin, hemoglobin), not the texture's colour changed.
+bool colour_from_pigments(const CharacterState& state);
 
 WrinkleTextures& wrinkle_textures(CharacterState& state);
 BloodTextures& blood_textures(CharacterState& state);

@@ -8,6 +8,8 @@
 #include "runtime/face_file.h"
 #include "runtime/frame.h"
 #include "runtime/gl/state_guard.h"
+#include "runtime/occlusion_file.h"
+#include "runtime/occlusion_gpu.h"
 #include "runtime/rig_description_file.h"
 #include "runtime/skin_facts.h"
 
@@ -55,8 +57,13 @@ Result<Character> Character::load(const Device& device, const std::filesystem::p
     if (!description) return description.error();
     Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(path));
     if (!appearance) return appearance.error();
+    Result<std::optional<OcclusionSet>> occlusion = find_occlusion(*face);
+    if (!occlusion) return occlusion.error();
     Result<Character> character = create(device, *std::move(face), *description);
-    if (character) character->set_appearance(*std::move(appearance));
+    if (character) {
+        character->set_appearance(*std::move(appearance));
+        character->set_occlusion(*std::move(occlusion));
+    }
     return character;
 }
 
@@ -83,6 +90,7 @@ Result<Character> Character::create(const Device& device, Face face, const std::
     state->pose = state->rig.rest_pose();
     state->head_and_eyes = find_head_and_eyes(state->face);
     state->bounds = moving_bounds(state->face);
+    state->scale = face_scale(state->face);
     find_skin_parts(*state);
     state->target_needs_turned_normals = targets_that_move(
         state->face, [](const Primitive& primitive) { return primitive.normal_source == NormalSource::recomputed; });
@@ -118,6 +126,17 @@ void Character::set_appearance(FaceAppearance appearance) {
     state_->appearance = std::move(appearance);
     state_->own<WrinkleTextures>() = {};
     state_->own<BloodTextures>() = {};
+}
+
+void Character::set_occlusion(std::optional<OcclusionSet> occlusion) {
+    assert((!occlusion || std::ranges::all_of(occlusion->poses,
+                                              [this](const OcclusionPose& pose) {
+                                                  return pose.transfers.size() == face().positions.size();
+                                              })) &&
+           "Character::set_occlusion: coefficients of another face");
+    state_->device.make_current();
+    state_->occlusion = std::move(occlusion);
+    state_->own<OcclusionBuffer>() = {};
 }
 
 OrbitCamera Character::framing(float aspect) const { return frame_head(state_->bounds, aspect); }

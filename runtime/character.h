@@ -9,6 +9,7 @@
 
 #include "rig/blood_flow.h"
 #include "rig/face.h"
+#include "rig/occlusion.h"
 #include "rig/result.h"
 #include "rig/rig.h"
 #include "runtime/camera.h"
@@ -57,6 +58,9 @@ public:
 
     /// The maps of its wrinkles and its blood. load() finds them beside the file (runtime/face_appearance.h).
     void set_appearance(FaceAppearance appearance);
+    /// How the face hides ambient light from itself: one transfer a vertex of this face in each pose; nothing: it hides
+    /// none. load() finds the file beside the face's (runtime/occlusion_file.h).
+    void set_occlusion(std::optional<OcclusionSet> occlusion);
 
     /// A camera that frames the face at rest. aspect: width / height.
     OrbitCamera framing(float aspect) const;

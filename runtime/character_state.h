@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "rig/blood_flow.h"
+#include "rig/face_scale.h"
 #include "rig/head_and_eyes.h"
 #include "rig/material_kind.h"
+#include "rig/occlusion.h"
 #include "rig/rig.h"
 #include "runtime/antialias/sampling.h"
 #include "runtime/device.h"
@@ -37,6 +39,7 @@ struct SceneFacts {
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
     bool has_triangles = false;
+    bool on_screen = false;           ///< some part of the face may be on the screen; false only where none can be
     bool has_skin = false;            ///< the face has a material that is skin
     bool skin_on_screen = false;      ///< it may be seen; false only where it cannot be
     double skin_pixels_a_mm = 0;      ///< on the screen, at the nearest place where skin may be
@@ -72,11 +75,10 @@ struct FrameResources {
     };
     std::array<Resolved, 6> to_resolve{};
     std::size_t resolve_count = 0;
-    ResourceId
-        velocities{};      ///< rgba16f: speed, velocity x and y, of the frame's last picture (effects/velocities.cpp)
-    ResourceId speeds{};   ///< speeds as far as they have come: filtered, averaged
-    ResourceId display{};  ///< the picture as far as it has come: display values, or radiance
-    ResourceId target{};   ///< what the picture goes to: the view's framebuffer, or a texture for averaging
+    ResourceId velocities{};  ///< rgba16f, of the frame's last picture: shaders/velocities.frag
+    ResourceId speeds{};      ///< speeds as far as they have come: filtered, averaged
+    ResourceId display{};     ///< the picture as far as it has come: display values, or radiance
+    ResourceId target{};      ///< what the picture goes to: the view's framebuffer, or a texture for averaging
 };
 
 struct Effect;
@@ -96,6 +98,7 @@ struct CharacterState {
     const BloodFlow* blood = nullptr;  ///< where the blood is, when it does not follow the pose at once
     EffectSettings settings;
     FaceAppearance appearance;
+    std::optional<OcclusionSet> occlusion;
 
     std::optional<StreamOut> stream_out;  // made right after construction: it refers to `face`
     FaceModel model;
@@ -107,7 +110,8 @@ struct CharacterState {
     std::vector<MaterialKind> material_kind;  // the same
     std::vector<SkinPart> skin_parts;         // by node
     std::vector<float> target_reach;          // of each target: its longest move of skin at weight 1, mesh units
-    double millimetres_a_unit = 1;
+    FaceScale scale;                          // as the face itself tells
+    double millimetres_a_unit = 1;            // that, or as the settings want it
     std::vector<ActiveTarget> active, deformed_active;
     NormalMethod normal_method = NormalMethod::authored;
     EffectSettings deformed_settings;

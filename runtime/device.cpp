@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/gl/current_context.h"
+#include "runtime/gl/program.h"
 
 namespace blush {
 
@@ -15,9 +16,13 @@ struct Device::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;  // EGL_NO_CONTEXT: adopted
     std::vector<std::string> messages;
+    gl::ProgramCache programs;
 
     ~State() {
-        if (context == EGL_NO_CONTEXT) return;
+        if (context == EGL_NO_CONTEXT) {
+            if (gl::context_is_current()) programs.clear();
+            return;
+        }
         if (eglGetCurrentContext() == context) {
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         }
@@ -90,6 +95,7 @@ Result<Device> Device::headless(bool debug) {
     if (state->context == EGL_NO_CONTEXT) return Error{"this machine's EGL offers no OpenGL 4.5 core context"};
     eglMakeCurrent(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context);
     if (Status info = read_info(state->info); !info) return info.error();
+    state->programs.make_current();
     if (debug) {
         glEnable(GL_DEBUG_OUTPUT);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -102,12 +108,14 @@ Result<Device> Device::adopt_current() {
     if (!gl::context_is_current()) return Error{"no GL context is current on this thread"};
     auto state = std::make_shared<State>();
     if (Status info = read_info(state->info); !info) return info.error();
+    state->programs.make_current();
     return Device(std::move(state));
 }
 
 const DeviceInfo& Device::info() const { return state_->info; }
 
 void Device::make_current() const {
+    state_->programs.make_current();
     if (state_->context == EGL_NO_CONTEXT || eglGetCurrentContext() == state_->context) return;
     eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context);
 }

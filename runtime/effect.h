@@ -4,6 +4,7 @@
 /// the frame walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard
 /// cases. docs/adding_an_effect.md is the checklist.
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -58,6 +59,8 @@ struct Variant {
     std::function<void()> run;  ///< complete when it returns
     struct Error {
         double mean = 0, worst = 0;  ///< in the study's unit
+        /// Of red, green and blue apart, where a study tells; else zero.
+        std::array<double, 3> channel_mean{}, channel_worst{};
     };
     std::function<Error()> error;
     std::string work;  ///< counted: "52 targets, 14 passes, 1.4 M deltas"
@@ -84,6 +87,12 @@ struct HardCase {
     void (*look)(View& view) = nullptr;
 };
 
+/// A setting that takes an effect out of every frame.
+inline constexpr std::array<std::string_view, 2> yes_or_no = {"yes", "no"};
+constexpr Setting shown_setting(std::string_view meaning) { return {"shown", meaning, yes_or_no}; }
+/// Whether `shown` of that effect says no.
+bool is_hidden(const CharacterState& state, std::string_view effect);
+
 struct Effect {
     std::string_view name;
     std::string_view what;
@@ -100,11 +109,11 @@ struct Effect {
 /// All effects, in the order in which a frame applies them.
 std::span<const Effect* const> effects();
 
-extern const Effect deformation_effect, normals_effect, skinning_effect;
-extern const Effect wrinkles_effect, blood_effect;
+extern const Effect wrinkle_baking_effect, wrinkles_effect, appearance_baking_effect, blood_effect;
 extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
     antialiasing_effect, supersampling_effect, reprojection_effect;
 extern const Effect parts_effect, depth_of_field_effect, bloom_effect, exposure_effect, film_grain_effect;
-extern const Effect shadows_effect, translucency_effect, reflection_effect, environment_effect, scattering_effect;
+extern const Effect shadows_effect, translucency_effect, reflection_effect, environment_effect, occlusion_effect,
+    scattering_effect;
 
 }  // namespace blush

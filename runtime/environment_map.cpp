@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -18,12 +19,29 @@ struct EnvironmentMap {
     std::uint64_t identity = 0;
 };
 
+/// Radiance that comes from every side.
+void write_least(glm::vec3 radiance, shared::FrameBlock& block) {
+    for (glm::length_t c = 0; c < 3; ++c) block.ambient_sh[c].w = radiance[c];
+}
+
+/// White reflects ground + (sky - ground) (1 + n.y) / 2: bands 0 and 1.
+void write_sky(glm::vec3 sky, glm::vec3 ground, shared::FrameBlock& block) {
+    const Sh9 up = sh_basis({0, 1, 0});
+    block.ambient_sh[0] = glm::vec4(0.5F * (sky + ground) / static_cast<float>(up[0]), 0);
+    block.ambient_sh[1] = glm::vec4(0.5F * (sky - ground) / static_cast<float>(up[1]), 0);
+    write_least(glm::min(sky, ground), block);
+}
+
 float finite_or(float value, float otherwise) { return std::isfinite(value) ? value : otherwise; }
 
 }  // namespace
 
-void write_environment(const CharacterState& state, shared::FrameBlock& block) {
+void write_ambient(const CharacterState& state, shared::FrameBlock& block) {
     const Lighting& lighting = *state.lighting;
+    if (lighting.environment == nullptr) {
+        write_sky(lighting.sky_radiance_linear, lighting.ground_radiance_linear, block);
+        return;
+    }
     const float factor = std::clamp(finite_or(lighting.environment_factor, 0), 0.0F, 1e4F);
     const float turn = std::remainder(finite_or(lighting.environment_turn_radians, 0), 2 * std::numbers::pi_v<float>);
     const glm::dmat3 rotation(glm::rotate(glm::dmat4(1), static_cast<double>(turn), glm::dvec3(0, 1, 0)));
@@ -33,6 +51,14 @@ void write_environment(const CharacterState& state, shared::FrameBlock& block) {
     for (std::size_t i = 0; i < 9; ++i) {
         block.ambient_sh[i] = glm::vec4(glm::vec3(turned[i] * share[i] * static_cast<double>(factor)), 0);
     }
+    // The darkest side of the map as the roughest mirror sees it: a vertex is open to more than a texel.
+    glm::vec3 least(std::numeric_limits<float>::max());
+    const Environment::Level& blurred = lighting.environment->levels.back();
+    for (std::size_t i = 0; i < blurred.rgb_linear.size(); ++i) {
+        float& channel = least[static_cast<glm::length_t>(i % 3)];
+        channel = std::min(channel, factor * blurred.rgb_linear[i]);
+    }
+    write_least(least, block);
     block.environment = {factor, static_cast<float>(lighting.environment->levels.size()) - 1, turn, 0};
 }
 

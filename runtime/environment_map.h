@@ -5,8 +5,8 @@
 
 namespace blush {
 
-/// Fills the block's coefficients. The lighting must have an environment.
-void write_environment(const CharacterState& state, shared::FrameBlock& block);
+/// Fills the block's coefficients of light from all around: the environment's, else those of sky and ground.
+void write_ambient(const CharacterState& state, shared::FrameBlock& block);
 
 /// Binds the filtered map, made when the environment is another one than last time.
 void bind_environment(CharacterState& state);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/signed_texture.h"
 
 namespace blush {
 namespace {
@@ -36,12 +37,16 @@ float linear_from_srgb(float v) {  // IEC 61966-2-1
     return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F);
 }
 
-Result<gl::Texture> make_image_texture(const Image& image, bool srgb, int largest_side) {
+Status check_side(const Image& image, int largest_side) {
     if (image.width > static_cast<std::uint32_t>(largest_side) ||
         image.height > static_cast<std::uint32_t>(largest_side)) {
         return Error{"image \"" + image.name + "\" is " + std::to_string(image.width) + "x" +
                      std::to_string(image.height) + " pixels; this device takes " + std::to_string(largest_side)};
     }
+    return Done{};
+}
+
+gl::Texture make_image_texture(const Image& image, bool srgb) {
     gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
     const auto width = static_cast<GLsizei>(image.width), height = static_cast<GLsizei>(image.height);
     const int levels = 1 + static_cast<int>(std::floor(std::log2(std::max({width, height, 1}))));
@@ -62,22 +67,32 @@ Result<gl::Texture> make_image_texture(const Image& image, bool srgb, int larges
     return texture;
 }
 
-std::array<const TextureUse*, 5> textures_of(const Material& m) {
-    return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb};
+/// In the order of MaterialBlock.
+constexpr std::size_t texture_count = 6;
+constexpr std::array<bool, texture_count> texture_is_srgb = {true, false, false, false, true, false};
+constexpr std::array<GLuint, texture_count> unit_of_texture = {BLUSH_BASE_COLOR_UNIT, BLUSH_METALLIC_ROUGHNESS_UNIT,
+                                                               BLUSH_NORMAL_MAP_UNIT, BLUSH_OCCLUSION_UNIT,
+                                                               BLUSH_EMISSIVE_UNIT,   BLUSH_SPECULAR_UNIT};
+constexpr std::array<std::uint32_t, texture_count> bit_of_texture = {1U << 0, 1U << 1, 1U << 2,
+                                                                     1U << 3, 1U << 4, shade_specular_map};
+
+std::array<const TextureUse*, texture_count> textures_of(const Material& m) {
+    return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb, &m.specular_map};
 }
 
-constexpr std::array<std::string_view, 18> defines_of_bits = {
+constexpr std::array<std::string_view, 19> defines_of_bits = {
     "BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP", "OCCLUSION_MAP", "EMISSIVE_MAP", "SKIN",
     "SCATTER",        "SKIN_REFLECTION",        "SHADOWS",    "TRANSLUCENCY",  "ENVIRONMENT",  "AMBIENT_OCCLUSION",
-    "WRINKLES",       "WRINKLE_DIFFERENCES",    "BLOOD",      "EYE",           "MOUTH",        "HAIR"};
+    "WRINKLES",       "WRINKLE_DIFFERENCES",    "BLOOD",      "EYE",           "MOUTH",        "HAIR",
+    "PIGMENT_COLOR"};
 
 std::uint32_t permutation_of(const Material& material, MaterialKind kind, std::uint32_t frame_bits) {
     const auto uses = textures_of(material);
     std::uint32_t bits = frame_bits;
-    for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? 1U << t : 0U;
+    for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? bit_of_texture[t] : 0U;
     // What only skin has is left out elsewhere, so that fewer programs are made.
-    constexpr std::uint32_t of_skin =
-        shade_skin_reflection | shade_translucency | shade_wrinkles | shade_wrinkle_differences | shade_blood;
+    constexpr std::uint32_t of_skin = shade_skin_reflection | shade_translucency | shade_wrinkles |
+                                      shade_wrinkle_differences | shade_blood | shade_pigment_colour;
     bits &= ~(shade_eye | shade_mouth | shade_hair);
     if (kind == MaterialKind::eye) bits |= frame_bits & shade_eye;
     if (kind == MaterialKind::mouth) bits |= frame_bits & shade_mouth;
@@ -91,22 +106,25 @@ Status make_permutation(std::map<std::uint32_t, gl::Program>& programs, std::uin
     for (std::size_t t = 0; t < defines_of_bits.size(); ++t) {
         if ((bits >> t & 1U) != 0) defines.push_back(defines_of_bits[t]);
     }
+    if ((bits & shade_specular_map) != 0) defines.emplace_back("SPECULAR_MAP");
     Result<gl::Program> made = gl::make_program({"face.vert", "face.frag", defines});
     if (!made) return made.error();
     programs.emplace(bits, *std::move(made));
     return Done{};
 }
 
-constexpr std::array<bool, 5> texture_is_srgb = {true, false, false, false, true};
+/// The normal map among textures_of().
+constexpr std::size_t normal_texture = 2;
 
-shared::MaterialBlock block_of(const Material& m) {
+/// normal_range: derivative that the 1 of its base normal map stands for.
+shared::MaterialBlock block_of(const Material& m, float normal_range) {
     shared::MaterialBlock block{};
     block.base_color_linear = m.base_color_linear;
     block.emissive_linear = glm::vec4(m.emissive_linear, 0);
-    block.metallic_roughness_normal_occlusion =
-        glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion.image >= 0 ? m.occlusion_strength : 0);
+    block.metallic_roughness_normal_occlusion = glm::vec4(m.metallic, m.roughness, m.normal_scale * normal_range,
+                                                          m.occlusion.image >= 0 ? m.occlusion_strength : 0);
     block.alpha = glm::vec4(m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : -1.0F,
-                            m.alpha_mode == AlphaMode::blend ? 0 : 1, 0, 0);
+                            m.alpha_mode == AlphaMode::blend ? 0 : 1, m.scatter_by_alpha ? 1 : 0, m.specular);
     const auto uses = textures_of(m);
     for (std::size_t t = 0; t < uses.size(); ++t) {
         const glm::mat3 rows = glm::transpose(uses[t]->uv_transform);
@@ -115,7 +133,7 @@ shared::MaterialBlock block_of(const Material& m) {
     }
     const auto set = [&](std::size_t t) { return static_cast<int>(uses[t]->uv_set); };
     block.uv_sets = glm::ivec4(set(0), set(1), set(2), set(3));
-    block.emissive_uv_set = glm::ivec4(set(4), 0, 0, 0);
+    block.emissive_uv_set = glm::ivec4(set(4), set(5), 0, 0);
     return block;
 }
 
@@ -149,36 +167,49 @@ Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_t
     glVertexArrayVertexBuffer(array, BLUSH_UV1_ATTRIBUTE, model.uv1.name(), 0, sizeof(glm::vec2));
     glVertexArrayElementBuffer(array, model.indices.name());
 
+    model.frame_block = gl::make_buffer(sizeof(shared::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    model.draw_stride = block_stride(sizeof(shared::DrawBlock));
+    model.draw_staging.resize(model.draw_stride * (face.nodes.size() + 1));
+    model.draw_blocks = gl::make_buffer(model.draw_staging.size(), nullptr, GL_DYNAMIC_STORAGE_BIT);
+
+    // An image may stand in the place of a colour, of numbers and of normals: each has a texture of its own.
+    model.srgb_textures.resize(face.images.size());
+    model.linear_textures.resize(face.images.size());
+    model.normal_textures.resize(face.images.size());
+    std::vector<float> normal_ranges(face.images.size(), 1);
+    for (const Material& material : face.materials) {
+        const auto uses = textures_of(material);
+        for (std::size_t t = 0; t < uses.size(); ++t) {
+            if (uses[t]->image < 0) continue;
+            const auto image = static_cast<std::size_t>(uses[t]->image);
+            gl::Texture& slot = (t == normal_texture  ? model.normal_textures
+                                 : texture_is_srgb[t] ? model.srgb_textures
+                                                      : model.linear_textures)[image];
+            if (slot) continue;
+            if (Status fits = check_side(face.images[image], largest_texture_side_texels); !fits)
+                return Error{face.path + ": " + fits.error().message};
+            if (t == normal_texture) {
+                BaseNormalTexture made = make_base_normal_texture(face.images[image]);
+                slot = std::move(made.texture);
+                normal_ranges[image] = made.range;
+            } else {
+                slot = make_image_texture(face.images[image], texture_is_srgb[t]);
+            }
+        }
+    }
+
     model.material_stride = block_stride(sizeof(shared::MaterialBlock));
     std::vector<std::byte> blocks(model.material_stride * (face.materials.size() + 1));
     const auto write_material = [&](std::size_t index, const Material& material) {
-        const shared::MaterialBlock block = block_of(material);
+        const std::int32_t image = material.normal.image;
+        const shared::MaterialBlock block =
+            block_of(material, image < 0 ? 1.0F : normal_ranges[static_cast<std::size_t>(image)]);
         std::memcpy(&blocks[index * model.material_stride], &block, sizeof(block));
     };
     for (std::size_t m = 0; m < face.materials.size(); ++m) write_material(m, face.materials[m]);
     write_material(face.materials.size(), default_material());
     model.material_blocks = gl::make_buffer<std::byte>(blocks);
 
-    model.frame_block = gl::make_buffer(sizeof(shared::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    model.draw_stride = block_stride(sizeof(shared::DrawBlock));
-    model.draw_staging.resize(model.draw_stride * (face.nodes.size() + 1));
-    model.draw_blocks = gl::make_buffer(model.draw_staging.size(), nullptr, GL_DYNAMIC_STORAGE_BIT);
-
-    model.srgb_textures.resize(face.images.size());
-    model.linear_textures.resize(face.images.size());
-    for (const Material& material : face.materials) {
-        const auto uses = textures_of(material);
-        for (std::size_t t = 0; t < uses.size(); ++t) {
-            if (uses[t]->image < 0) continue;
-            const auto image = static_cast<std::size_t>(uses[t]->image);
-            gl::Texture& slot = texture_is_srgb[t] ? model.srgb_textures[image] : model.linear_textures[image];
-            if (slot) continue;
-            Result<gl::Texture> made =
-                make_image_texture(face.images[image], texture_is_srgb[t], largest_texture_side_texels);
-            if (!made) return Error{face.path + ": " + made.error().message};
-            slot = *std::move(made);
-        }
-    }
     for (std::size_t s = 0; s < model.samplers.size(); ++s) {
         model.samplers[s] = gl::make_sampler();
         const GLuint name = model.samplers[s].name();
@@ -188,6 +219,10 @@ Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_t
         glSamplerParameteri(name, GL_TEXTURE_WRAP_T, (s & 2) != 0 ? GL_REPEAT : GL_CLAMP_TO_EDGE);
     }
     return model;
+}
+
+const std::vector<gl::Texture>& FaceModel::textures_for(std::size_t use) const {
+    return use == normal_texture ? normal_textures : texture_is_srgb[use] ? srgb_textures : linear_textures;
 }
 
 void FaceModel::bind_surface(const SurfaceBuffers& surface) const {
@@ -227,9 +262,9 @@ void FaceModel::bind_maps(const Face& face, std::int32_t material) const {
         const TextureUse& use = *uses[t];
         if (use.image < 0) continue;
         const auto image = static_cast<std::size_t>(use.image);
-        const gl::Texture& texture = texture_is_srgb[t] ? srgb_textures[image] : linear_textures[image];
-        glBindTextureUnit(BLUSH_BASE_COLOR_UNIT + t, texture.name());
-        glBindSampler(BLUSH_BASE_COLOR_UNIT + t, samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
+        const gl::Texture& texture = textures_for(t)[image];
+        glBindTextureUnit(unit_of_texture[t], texture.name());
+        glBindSampler(unit_of_texture[t], samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
     }
 }
 

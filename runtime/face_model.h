@@ -15,7 +15,7 @@
 
 namespace blush {
 
-/// Bits of a permutation of face.frag: the material's five textures come first, in the order of MaterialBlock.
+/// Bits of a permutation of face.frag: the material's first five textures come first, in the order of MaterialBlock.
 enum ShadeBits : std::uint32_t {
     shade_skin = 1U << 5,  ///< of the material
     shade_scatter = 1U << 6,
@@ -30,6 +30,8 @@ enum ShadeBits : std::uint32_t {
     shade_eye = 1U << 15,  ///< of the material, where the frame has it
     shade_mouth = 1U << 16,
     shade_hair = 1U << 17,
+    shade_pigment_colour = 1U << 18,  ///< with blood
+    shade_specular_map = 1U << 24,  ///< of the material
 };
 
 struct FaceModel {
@@ -58,11 +60,16 @@ struct FaceModel {
     std::size_t draw_stride = 0, material_stride = 0;
     std::vector<std::byte> draw_staging;
 
-    /// By image, read as sRGB and read as it is; made only where a material reads them so.
-    std::vector<gl::Texture> srgb_textures, linear_textures;
+    /// By image, read as sRGB, as it is, and as normals in the form of partial derivatives; made only where a material
+    /// reads them so.
+    std::vector<gl::Texture> srgb_textures, linear_textures, normal_textures;
     /// Permutations of face.frag, by their ShadeBits.
     std::map<std::uint32_t, gl::Program> programs;
     std::array<gl::Sampler, 4> samplers;  ///< bit 0: repeat u, bit 1: repeat v (else clamp)
+
+private:
+    /// Those that the use-th texture of a material is among.
+    const std::vector<gl::Texture>& textures_for(std::size_t use) const;
 };
 
 }  // namespace blush

@@ -6,6 +6,7 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
 #include "runtime/effect.h"
+#include "runtime/on_screen.h"
 #include "runtime/scene_lights.h"
 #include "runtime/shadow_maps.h"
 #include "runtime/skin_facts.h"
@@ -207,7 +208,8 @@ void declare_picture(CharacterState& state, const View& view) {
     depth.format = PixelFormat::depth32f;
     state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
     state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
-    state.resources.scene_depth = state.graph.texture("scene depth", depth);
+    state.resources.scene_depth = last_picture && state.sampling.temporal ? import_kept_depth(state, depth)
+                                                                          : state.graph.texture("scene depth", depth);
     if (state.on(scattering_effect)) {
         TextureShape skin_depth = color;
         skin_depth.format = PixelFormat::r32f;
@@ -249,7 +251,8 @@ void declare_picture(CharacterState& state, const View& view) {
 void draw_frame(CharacterState& state, const View& view) {
     begin_frame(state, view);
     const auto largest = static_cast<std::uint32_t>(std::max(1, state.device.info().largest_sample_count));
-    state.sampling = find_sampling(state.settings, view, largest, state.facts.has_triangles);
+    state.facts.on_screen = state.facts.has_triangles && (state.facts.forced || may_be_on_screen(state, view));
+    state.sampling = find_sampling(state.settings, view, largest, state.facts.on_screen);
     find_last_frame(state, view);
     state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
     find_needs(state);

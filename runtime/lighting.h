@@ -28,6 +28,11 @@ struct LightSource {
     /// Goes round the upright axis through Lighting::orbit_centre_world once in so many seconds of View::time_seconds,
     /// from where it stands at 0, past the face's front to its left (below 0: to its right). 0: it stands.
     float orbit_seconds = 0;
+    /// Of what shines, for the width of its shadows' edges: radius of a point or
+    /// a spot in world units, half the angle in radians that a directional light
+    /// is seen under (below 0.5). 0 or more; 0: edges as sharp as the shadow
+    /// map's.
+    float size = 0;
 };
 
 /// A radiance map in equal longitudes and latitudes (rig/spherical_harmonics.h), prepared once.

@@ -147,14 +147,14 @@ std::uint32_t ScatterPasses::fetches_a_pixel(ScatterMethod method, std::uint32_t
     const std::uint32_t a_tap = follow ? 2 : 1;
     switch (method) {
         case ScatterMethod::separable:
-            return 2 * (2 + (samples - 1) * a_tap) + 1;  // light and depth of the centre, taps; albedo
+            return 2 * (3 + (samples - 1) * a_tap);  // light, depth, albedo and strength of the centre; taps
         case ScatterMethod::gaussians4:
         case ScatterMethod::gaussians6: {
             const std::uint32_t blurred = method == ScatterMethod::gaussians4 ? 3 : 5;
-            return blurred * (2 * (2 + 2 + 6) + 2) + 3;  // centre, gradient, taps, twice; accumulated; albedo
+            return blurred * (2 * (3 + 2 + 6) + 3) + 3;  // centre, gradient, taps, twice; accumulated; composed
         }
         case ScatterMethod::jittered:
-            return 2 + 12 * a_tap + 1;
+            return 3 + 12 * a_tap;
         case ScatterMethod::off:
             break;
     }

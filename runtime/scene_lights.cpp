@@ -38,6 +38,8 @@ LightSource from_camera(const glm::mat4& world_from_view, glm::vec3 towards_view
     light.direction_world = -glm::normalize(glm::mat3(world_from_view) * glm::normalize(towards_view));
     light.radiance_linear = radiance;
     light.casts_shadow = shadow;
+    light.size = 0.0625F;  // a studio lamp behind an umbrella: half a metre wide
+                           // at four metres
     return light;
 }
 
@@ -112,7 +114,12 @@ bool place_shadow_map(const LightSource& source, const Bounds& bounds, std::uint
         light.shadow.w = 1;
     }
     light.shadow.x = static_cast<float>(index);
-    light.shadow_depth = glm::vec4(near_distance, far_distance, 0, 0);
+    const float size = std::isfinite(source.size) ? std::max(source.size, 0.0F) : 0.0F;
+    // A light wider than this is an environment.
+    constexpr float widest_radians = 0.5F;
+    light.shadow_depth =
+        glm::vec4(near_distance, far_distance,
+                  directional ? std::tan(std::min(size, widest_radians)) : std::min(size, 0.5F * distance), 0);
     return true;
 }
 

@@ -17,9 +17,11 @@ void place_shadow_maps(CharacterState& state) {
     const std::uint32_t side = shadow_map_side(state);
     // Where the device's textures end, further lights shine without shadows.
     const std::uint32_t most = static_cast<std::uint32_t>(state.device.info().largest_texture_side_texels) / side;
+    const bool sharp = state.settings.choice(shadows_effect.name, "edges") == 1;
     for (const LightSource& source : state.lights) {
         shared::Light light = shader_light(source);
         if (source.casts_shadow && maps < most && place_shadow_map(source, state.bounds, side, maps, light)) ++maps;
+        if (sharp) light.shadow_depth.z = 0;
         state.shader_lights.push_back(light);
     }
     state.facts.shadow_lights = maps;

@@ -4,32 +4,12 @@
 #include <cmath>
 
 #include "rig/skin_material.h"
+#include "runtime/clip_bounds.h"
 #include "runtime/effect.h"
 #include "runtime/effects/scattering.h"
 
 namespace blush {
 namespace {
-
-/// The bounds' corners in clip space.
-std::array<glm::vec4, 8> corners(const glm::mat4& clip_from_mesh, const Bounds& bounds) {
-    std::array<glm::vec4, 8> result{};
-    for (std::size_t i = 0; i < 8; ++i) {
-        const glm::vec3 corner((i & 1) != 0 ? bounds.high.x : bounds.low.x, (i & 2) != 0 ? bounds.high.y : bounds.low.y,
-                               (i & 4) != 0 ? bounds.high.z : bounds.low.z);
-        result[i] = clip_from_mesh * glm::vec4(corner, 1);
-    }
-    return result;
-}
-
-/// Whether all corners are beyond one and the same side of the view.
-bool outside(const std::array<glm::vec4, 8>& clip) {
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-        for (const float sign : {-1.0F, 1.0F}) {
-            if (std::ranges::all_of(clip, [&](const glm::vec4& c) { return sign * c[axis] > c.w; })) return true;
-        }
-    }
-    return false;
-}
 
 float largest_scale(const glm::mat4& matrix) {
     return std::max(
@@ -70,7 +50,7 @@ void find_skin_parts(CharacterState& state) {
 
 void find_skin_facts(CharacterState& state) {
     const double set_scale = state.settings.number(scattering_effect.name, "millimetres_a_unit");
-    state.millimetres_a_unit = set_scale > 0 ? set_scale : millimetres_a_unit(state.bounds);
+    state.millimetres_a_unit = set_scale > 0 ? set_scale : state.scale.millimetres_a_unit;
     SceneFacts& facts = state.facts;
     facts.has_skin = !state.skin_parts.empty();
     float reach = 0;
@@ -86,12 +66,12 @@ void find_skin_facts(CharacterState& state) {
         bounds.high += reach;
         // Joints move a surface anywhere; then, and where a number is not finite, it may be seen, and be near.
         const bool known = !facts.has_joints && std::isfinite(reach) && std::isfinite(largest_scale(view));
-        if (known && outside(corners(camera.clip_from_view * view, bounds))) continue;
+        if (known && outside_view(clip_corners(camera.clip_from_view * view, bounds))) continue;
         facts.skin_on_screen = true;
         double nearest = 0;
         if (known) {
             nearest = std::numeric_limits<double>::max();
-            for (const glm::vec4& corner : corners(view, bounds)) {
+            for (const glm::vec4& corner : clip_corners(view, bounds)) {
                 nearest = std::min(nearest, static_cast<double>(-corner.z) * state.millimetres_a_unit);
             }
         }

@@ -1,8 +1,6 @@
 #include "runtime/skin_tables.h"
 
-#include "rig/diffusion_profile.h"
 #include "rig/skin_reflectance.h"
-#include "runtime/effect.h"
 
 namespace blush {
 namespace {
@@ -18,19 +16,6 @@ gl::Texture make_table(GLsizei width, GLsizei height, GLenum internal, GLenum fo
     return texture;
 }
 
-std::vector<float> transmittance_table(bool derived) {
-    std::vector<float> values;
-    for (int i = 0; i < BLUSH_TRANSMITTANCE_STEPS; ++i) {
-        const double s = BLUSH_TRANSMITTANCE_END_MM * (i + 0.5) / BLUSH_TRANSMITTANCE_STEPS;
-        const glm::dvec3 t =
-            derived ? transmittance(skin_six_gaussians(), s) : transmittance_as_printed(skin_six_gaussians(), s);
-        for (glm::length_t c = 0; c < 3; ++c) values.push_back(static_cast<float>(t[c]));
-    }
-    // Nothing passes what is thicker than the table.
-    std::fill(values.end() - 3, values.end(), 0.0F);
-    return values;
-}
-
 }  // namespace
 
 const SkinTables& skin_tables(CharacterState& state) {
@@ -43,12 +28,6 @@ const SkinTables& skin_tables(CharacterState& state) {
         tables.beckmann = make_table(BLUSH_BECKMANN_TABLE_SIDE, BLUSH_BECKMANN_TABLE_SIDE, GL_R32F, GL_RED, beckmann);
         tables.specular_albedo =
             make_table(BLUSH_SPECULAR_ALBEDO_COLUMNS, BLUSH_SPECULAR_ALBEDO_ROWS, GL_RG32F, GL_RG, albedo);
-    }
-    const std::uint8_t attenuation = state.settings.choice(translucency_effect.name, "attenuation");
-    if (tables.attenuation != attenuation) {
-        tables.transmittance =
-            make_table(BLUSH_TRANSMITTANCE_STEPS, 1, GL_RGB32F, GL_RGB, transmittance_table(attenuation == 0));
-        tables.attenuation = attenuation;
     }
     return tables;
 }

@@ -386,8 +386,8 @@ void StreamOut::skin(const SurfaceBuffers& from, std::span<const glm::mat4> skin
         const auto node = std::ranges::find_if(face_->nodes, [&](const Node& candidate) {
             return candidate.mesh == static_cast<std::int32_t>(primitive.mesh) && candidate.skin >= 0;
         });
-        if (node != face_->nodes.end()) glUniform1ui(0, first_joint_of_skin_[static_cast<std::size_t>(node->skin)]);
         // A primitive without a skin has zero joint weights and passes through.
+        glUniform1ui(0, node != face_->nodes.end() ? first_joint_of_skin_[static_cast<std::size_t>(node->skin)] : 0);
         stream({primitive.first_vertex, primitive.vertex_count, false}, skinned_);
     }
     glDisableVertexArrayAttrib(vertex_array_.name(), BLUSH_JOINTS_ATTRIBUTE);

@@ -1,8 +1,8 @@
 #pragma once
 /// Wrinkle maps on disk: wrinkles.png (partial derivatives in red and green; 128 is 0, 1 and 255 the ends of the
-/// range), wrinkle_mask_1.png and wrinkle_mask_2.png (four zones each, in red, green, blue and alpha), and
-/// wrinkles.json, which says what they hold. An artist may paint any of them over. No GL. Nothing here throws; a
-/// message names file, place and reason.
+/// range), wrinkle_mask_1.png, _2 and _3 (four zones each, in red, green, blue and alpha; as many as there are zones
+/// for), and wrinkles.json, which says what they hold. An artist may paint any of them over. No GL. Nothing here
+/// throws; a message names file, place and reason.
 
 #include <filesystem>
 #include <string>
@@ -14,8 +14,13 @@
 
 namespace blush {
 
-/// Zones that two RGBA masks hold (jimenez-2012, 8.2).
-inline constexpr std::size_t most_wrinkle_zones = 8;
+/// An RGBA mask holds four zones (jimenez-2012, 8.2, which has two such masks).
+inline constexpr std::size_t zones_a_wrinkle_mask = 4, most_wrinkle_masks = 3;
+inline constexpr std::size_t most_wrinkle_zones = zones_a_wrinkle_mask * most_wrinkle_masks;
+/// Masks that so many zones need.
+constexpr std::size_t wrinkle_masks_for(std::size_t zones) {
+    return (zones + zones_a_wrinkle_mask - 1) / zones_a_wrinkle_mask;
+}
 
 struct WrinkleSet {
     std::vector<std::string> zones;            ///< names as in Rig::wrinkle_zones(), no more than most_wrinkle_zones

@@ -5,20 +5,22 @@
 in vec3 position_world;
 in vec3 normal_world;
 in vec4 tangent_world;
-in vec2 texture_uv[5];
+in vec2 texture_uv[6];
 in vec2 layout_uv;
 #ifdef AMBIENT_OCCLUSION
-in vec3 ambient_visibility;
+in vec4 ambient_visibility;
 #endif
 
 // Permutations: a map that the material lacks is not fetched (BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP,
-// OCCLUSION_MAP, EMISSIVE_MAP); SKIN is the material's, SCATTER (the skin's diffuse light goes to targets of its own),
+// OCCLUSION_MAP, EMISSIVE_MAP, SPECULAR_MAP); SKIN is the material's, SCATTER (the skin's diffuse light goes to targets of its own),
 // SKIN_REFLECTION, SHADOWS, TRANSLUCENCY, ENVIRONMENT, AMBIENT_OCCLUSION, WRINKLES and BLOOD are the frame's.
 layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
 layout(binding = BLUSH_METALLIC_ROUGHNESS_UNIT) uniform sampler2D metallic_roughness_map;
 layout(binding = BLUSH_NORMAL_MAP_UNIT) uniform sampler2D normal_map;
 layout(binding = BLUSH_OCCLUSION_UNIT) uniform sampler2D occlusion_map;
 layout(binding = BLUSH_EMISSIVE_UNIT) uniform sampler2D emissive_map;
+
+layout(binding = BLUSH_SPECULAR_UNIT) uniform sampler2D specular_map;
 
 layout(location = 0) out vec4 radiance_linear;
 #ifdef SCATTER
@@ -64,9 +66,9 @@ vec3 shading_normal(vec3 view_world) {
     vec3 m = vec3(0.0, 0.0, 1.0);
     bool bent = false;
 #ifdef NORMAL_MAP
-    m = texture(normal_map, texture_uv[2]).xyz * 2.0 - 1.0;
-    m.xy *= metallic_roughness_normal_occlusion.z;
-    bent = true;
+    // Partial derivatives (jimenez-2012, 8.2). Flat ones leave the geometric normal as it is, to the bit.
+    m.xy = texture(normal_map, texture_uv[2]).xy * metallic_roughness_normal_occlusion.z;
+    bent = m.xy != vec2(0.0);
 #endif
 #ifdef WRINKLES
     float strength = wrinkle_strength(layout_uv);
@@ -156,6 +158,12 @@ void main() {
 #else
     if (base.a < alpha.x) discard;
 #endif
+    float scatter_strength = alpha.z != 0.0 ? base.a : 1.0;
+    // KHR_materials_specular: a factor on what a surface that is no metal reflects.
+    float specular_factor = alpha.w;
+#ifdef SPECULAR_MAP
+    specular_factor *= texture(specular_map, texture_uv[5]).a;
+#endif
 
 #ifdef BLOOD
     base.rgb = flushed(base.rgb, layout_uv);
@@ -180,7 +188,8 @@ void main() {
     occlusion += metallic_roughness_normal_occlusion.w * (texture(occlusion_map, texture_uv[3]).r - 1.0);
 #endif
     vec3 diffuse_color = base.rgb * (1.0 - metallic);
-    vec3 f0 = mix(vec3(0.04), base.rgb, metallic);
+    vec3 f0 = mix(vec3(0.04 * specular_factor), base.rgb, metallic);
+    vec3 f90 = vec3(mix(specular_factor, 1.0, metallic));
 
     vec3 mirrored = reflect(-view, n);
     // Radiance that a white surface reflects, and what a mirror as rough as this one shows.
@@ -192,8 +201,13 @@ void main() {
     vec3 ambient_mirrored = mix(ground_radiance_linear.rgb, sky_radiance_linear.rgb, 0.5 + 0.5 * mirrored.y);
 #endif
 #ifdef AMBIENT_OCCLUSION
-    ambient *= ambient_visibility;
-    ambient_mirrored *= min(ambient_visibility, vec3(1.0));
+    // What a vertex's own normal loses, its pixels lose, whatever their normals: the detail of maps stays.
+    // At the edge of a triangle a pixel's middle may lie outside of it, and interpolation beyond what is possible.
+    vec4 visible = clamp(ambient_visibility, 0.0, 1.0);
+    ambient *= visible.rgb;
+    // What hides a place shines as it does itself: with_bounces() in rig/occlusion.cpp.
+    if (occlusion_poses.z != 0) ambient /= max(1.0 - min(diffuse_color, vec3(1.0)) * (1.0 - visible.a), vec3(1e-3));
+    ambient_mirrored *= visible.a;
 #endif
 #ifdef EYE
     float lids = lid_visibility(eye, position_world);
@@ -214,7 +228,7 @@ void main() {
 
 #if defined(SKIN) && defined(SKIN_REFLECTION)
     float skin_rough = clamp(skin.z * (roughness / 0.5), 0.08, 0.95);
-    float skin_intensity = skin.w;
+    float skin_intensity = skin.w * specular_factor;
     vec2 mirror_view = skin_intensity * specular_albedo(n_v, skin_rough);
     // Light that comes from below and is sent back at the surface leaves elsewhere: the division by what the surface
     // lets out on the average keeps a white furnace white (Kelemen and Szirmay-Kalos 2001, 3). chappuis-2011, 2.6, leaves
@@ -225,7 +239,7 @@ void main() {
     entering += ambient * occlusion * (1.0 - mirror_view.y);
 #else
     // Ambient reflection: what stands in the mirror direction, with Schlick's Fresnel damped by roughness.
-    vec3 fresnel_view = f0 + (max(vec3(1.0 - roughness), f0) - f0) * pow(1.0 - min(n_v, 1.0), 5.0);
+    vec3 fresnel_view = f0 + (max(vec3(1.0 - roughness) * f90, f0) - f0) * pow(1.0 - min(n_v, 1.0), 5.0);
     surface += fresnel_view * ambient_mirrored * occlusion;
     entering += ambient * occlusion;
 #endif
@@ -255,7 +269,7 @@ void main() {
         surface += pi * skin_intensity * skin_specular(n, h, view, skin_rough) * radiance * n_l;
 #else
         h = unit_or(h, n);
-        vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - clamp(dot(view, h), 0.0, 1.0), 5.0);
+        vec3 fresnel = f0 + (f90 - f0) * pow(1.0 - clamp(dot(view, h), 0.0, 1.0), 5.0);
         float specular = specular_ggx(n_l, n_v, clamp(dot(n, h), 0.0, 1.0), roughness * roughness);
 #ifdef EYE
         entering += (1.0 - fresnel) * radiance * max(dot(inner, l), 0.0) * lids;
@@ -282,7 +296,7 @@ void main() {
     vec3 albedo = max(diffuse_color, vec3(1e-6));
     vec3 before = pow(albedo, vec3(skin.y));
     skin_light = vec4(min(entering * before, vec3(largest_radiance)), 1.0);
-    skin_albedo = vec4(albedo / before * leaving, 1.0);
+    skin_albedo = vec4(albedo / before * leaving, scatter_strength);
     skin_depth_mm = vec4(dot(depth_from_world, vec4(position_world, 1.0)) * skin.x, 0.0, 0.0, 1.0);
 #else
     surface += diffuse_color * entering * leaving;

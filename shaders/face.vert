@@ -11,7 +11,11 @@ out vec3 position_world;
 out vec3 normal_world;
 out vec4 tangent_world;
 out vec2 layout_uv;      // of the face's own maps
-out vec2 texture_uv[5];  // of each texture of the material, in the order of MaterialBlock
+out vec2 texture_uv[6];  // of each texture of the material, in the order of MaterialBlock
+#ifdef AMBIENT_OCCLUSION
+out vec4 ambient_visibility;  // rgb: share of the ambient light that arrives; a: share of the open directions
+#include "occlusion.glsl"
+#endif
 
 vec2 transformed(int texture_index, int uv_set) {
     vec3 uv = vec3(uv_set == 1 ? uv1 : uv0, 1.0);
@@ -25,6 +29,10 @@ void main() {
     tangent_world = vec4(mat3(world_from_mesh) * tangent.xyz, tangent.w);
     for (int i = 0; i < 4; ++i) texture_uv[i] = transformed(i, uv_sets[i]);
     texture_uv[4] = transformed(4, emissive_uv_set.x);
+    texture_uv[5] = transformed(5, emissive_uv_set.y);
     layout_uv = uv0;
+#ifdef AMBIENT_OCCLUSION
+    ambient_visibility = ambient_share(normal_world, tangent_world.xyz);
+#endif
     gl_Position = clip_from_world * world;
 }

@@ -7,9 +7,7 @@
 
 layout(binding = BLUSH_SKIN_LIGHT_UNIT) uniform sampler2D skin_light;  // rgb times matte, matte
 layout(binding = BLUSH_SKIN_DEPTH_UNIT) uniform sampler2D skin_depth;  // mm times matte
-#ifdef COMPOSITE
-layout(binding = BLUSH_SKIN_ALBEDO_UNIT) uniform sampler2D skin_albedo;  // rgb times matte
-#endif
+layout(binding = BLUSH_SKIN_ALBEDO_UNIT) uniform sampler2D skin_albedo;  // rgb and strength, times matte
 
 layout(location = 0) uniform vec2 scale_pixels;       // pixels a millimetre at a depth of 1 mm, or anywhere
 layout(location = 1) uniform float perspective;       // 1: perspective, 0: orthographic
@@ -25,8 +23,9 @@ layout(location = 0) out vec4 result;
 
 const float pi = 3.14159265358979;
 
-vec2 pixels_a_mm(float depth_mm) {
-    return min(scale_pixels / max(depth_mm * perspective + 1.0 - perspective, 1e-9), vec2(BLUSH_MOST_PIXELS_A_MM));
+// Of light that goes as far as the strength map lets it.
+vec2 pixels_a_mm(float depth_mm, float strength) {
+    return strength * min(scale_pixels / max(depth_mm * perspective + 1.0 - perspective, 1e-9), vec2(BLUSH_MOST_PIXELS_A_MM));
 }
 
 // What a tap adds to the centre's colour, for a weight of 1.
@@ -60,16 +59,18 @@ void main() {
     float depth_mm = texelFetch(skin_depth, here, 0).r / light.a;
     vec2 texel = 1.0 / vec2(textureSize(skin_light, 0));
     vec3 sum = centre;
+    vec4 albedo = texelFetch(skin_albedo, here, 0);
+    float strength = albedo.a / light.a;
 
 #if defined(TAPS)
-    vec2 step_pixels = direction * pixels_a_mm(depth_mm);
+    vec2 step_pixels = direction * pixels_a_mm(depth_mm, strength);
     for (int i = 0; i < TAPS - 1; ++i) {
         sum += taps[i].rgb * difference(gl_FragCoord.xy + taps[i].w * step_pixels, texel, centre, depth_mm);
     }
 #elif defined(GAUSSIAN)
-    if (gaussian.y * pixels_a_mm(depth_mm).y > 0.5) {  // eq. 4.5
+    if (gaussian.y * pixels_a_mm(depth_mm, strength).y > 0.5) {  // eq. 4.5
         float slope = gaussian.z * min(abs(gradient_mm(here, depth_mm)), gaussian.w);
-        vec2 step_pixels = direction * pixels_a_mm(depth_mm + perspective * slope) * gaussian.x;
+        vec2 step_pixels = direction * pixels_a_mm(depth_mm + perspective * slope, strength) * gaussian.x;
         for (int k = 1; k <= 3; ++k) {
             sum += gaussian_weights[k] *
                    (difference(gl_FragCoord.xy - float(k) * step_pixels, texel, centre, depth_mm) +
@@ -80,7 +81,7 @@ void main() {
     const float pattern[16] =
         float[16](0.0, 8.0, 2.0, 10.0, 12.0, 4.0, 14.0, 6.0, 3.0, 11.0, 1.0, 9.0, 15.0, 7.0, 13.0, 5.0);
     float turn = pattern[(here.y & 3) * 4 + (here.x & 3)] / 16.0 * (pi / 3.0);
-    vec2 scale = pixels_a_mm(depth_mm);
+    vec2 scale = pixels_a_mm(depth_mm, strength);
     for (int k = 0; k < 12; ++k) {
         vec4 ring = k < 6 ? middle_ring : wide_ring;
         float angle = turn + (float(k % 6) + (k < 6 ? 0.0 : 0.5)) * (pi / 3.0);
@@ -90,7 +91,7 @@ void main() {
 #endif
 
 #ifdef COMPOSITE
-    result = vec4(max(sum, vec3(0.0)) * texelFetch(skin_albedo, here, 0).rgb, 0.0);
+    result = vec4(max(sum, vec3(0.0)) * albedo.rgb, 0.0);
 #else
     result = vec4(sum * light.a, light.a);
 #endif

@@ -8,18 +8,18 @@
 #define BLUSH_MOST_KERNEL_TAPS 32
 // Of the skin, at any depth: keeps a camera inside the skin finite. rig/scatter_image.h has the same.
 #define BLUSH_MOST_PIXELS_A_MM 4096.0
-// Sides of the tables of the skin's surface reflection, and steps of the table of T(s).
+// Sides of the tables of the skin's surface reflection.
 #define BLUSH_BECKMANN_TABLE_SIDE 128
 #define BLUSH_SPECULAR_ALBEDO_COLUMNS 32
 #define BLUSH_SPECULAR_ALBEDO_ROWS 16
-#define BLUSH_TRANSMITTANCE_STEPS 128
-// Thickness at which the table of T(s) ends: at 10 mm less than 1.3 % of red passes and nothing of the rest.
-#define BLUSH_TRANSMITTANCE_END_MM 10.0
+#define BLUSH_MOST_GAUSSIANS 8
 
 // Sides of the grid in which the exposure is metered; taps of the blur of the depth of field, at most.
 #define BLUSH_EXPOSURE_CELLS 32
 #define BLUSH_MOST_BLUR_TAPS 81
 
+// RGBA masks of wrinkle zones, at most: the paper's two (jimenez-2012, 8.2) and one more.
+#define BLUSH_MOST_WRINKLE_MASKS 3
 // Maps of blood that act at once, at most.
 #define BLUSH_MOST_BLOOD_MAPS 32
 
@@ -50,6 +50,9 @@
 // Storage block of the joints.
 #define BLUSH_JOINTS_BINDING 0
 
+// Storage block of the occlusion coefficients, bound while shading.
+#define BLUSH_OCCLUSION_BINDING 3
+
 // Vertex attributes of the deformation passes. Targets of the pass-by-pass twin follow: position, normal and tangent
 // deltas of target k at BLUSH_TARGET_ATTRIBUTE + 3 * k.
 #define BLUSH_POSITION_ATTRIBUTE 0
@@ -78,12 +81,12 @@
 #define BLUSH_EMISSIVE_UNIT 4
 #define BLUSH_BECKMANN_UNIT 5
 #define BLUSH_SPECULAR_ALBEDO_UNIT 9
-#define BLUSH_TRANSMITTANCE_UNIT 6
+#define BLUSH_SPECULAR_UNIT 6
 #define BLUSH_SHADOW_UNIT 7
 #define BLUSH_ENVIRONMENT_UNIT 8
 #define BLUSH_WRINKLE_MAP_UNIT 10
-#define BLUSH_WRINKLE_MASK_1_UNIT 11
-#define BLUSH_WRINKLE_MASK_2_UNIT 12
+#define BLUSH_WRINKLE_MASKS_UNIT 11
+#define BLUSH_RESIDUAL_UNIT 12
 #define BLUSH_PIGMENT_UNIT 13
 #define BLUSH_BLOOD_CHANGE_UNIT 14
 #define BLUSH_SKIN_COLOR_UNIT 15
@@ -119,7 +122,8 @@ struct Light {
     vec4 cone_world;       // xyz: unit vector that a spot shines along; w: cosine of its rim, or -2 without a cone
     vec4 shadow;           // x: shadow map or -1; y: cosine where a spot begins to fade; z: texel at the map's depth 1
                            // (perspective) or anywhere, world units; w: 1 when the map is a perspective
-    vec4 shadow_depth;     // x, y: near and far of the map, world units; zw unused
+    vec4 shadow_depth;     // x, y: near and far of the map, world units; z: size: radius of a light with a place, world
+                           // units, or tangent of half the angle of a directional one; w unused
     mat4 shadow_from_world;  // clip space of the shadow map
 };
 
@@ -129,11 +133,14 @@ BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     vec4 depth_from_world;        // dot with (place, 1): distance along the view's axis, world units
     vec4 sky_radiance_linear;     // ambient from above; w unused
     vec4 ground_radiance_linear;  // ambient from below; w unused
-    vec4 ambient_sh[9];           // rgb: radiance of white under an environment, by spherical harmonics of the normal
+    vec4 ambient_sh[9];           // rgb: radiance of white under the ambient light, by spherical harmonics of the normal;
+                                  // w of the first three: radiance that comes from every side, red, green, blue
     vec4 environment;             // x: factor on the environment map; y: its mip levels - 1; z: its turn about +Y
     vec4 skin;                    // x: millimetres a world unit; y: share of the albedo before the diffusion
                                   // z: roughness, w: intensity of the surface reflection
-    vec4 translucency;            // x: strength; y: mm that a point is drawn in along its normal; zw unused
+    vec4 translucency;            // x: strength; y: mm that a point is drawn in along its normal; z: thickness in mm that
+                                  // nothing passes; w unused
+    vec4 profile[BLUSH_MOST_GAUSSIANS];  // rgb: weight of a Gaussian; w: -1 / (2 variance), 1/mm^2; 0: no such term
     vec4 parts;                   // x: strength of the lids' shade on the eye; y: of the iris's depth
                                   // z: of the darkness in the mouth; w: roughness of the eye's film of tears
     vec4 mouth_front;             // xyz: a place on the plane before the teeth; w unused
@@ -143,6 +150,9 @@ BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     ivec4 eye_data;               // x: 1 when the eyes are known; yz: vertices on the eyes' poles; w: 1 with lid_points
     ivec4 lid_points[BLUSH_LID_POINTS];  // vertices: upper and lower lid of the first eye, of the second
     ivec4 counts;                 // x: lights; yzw unused
+    ivec4 occlusion_poses;              // x: poses of the occlusion coefficients; y: vertices of each; z: 1 with light that
+                                  // surfaces send on; w unused
+    vec4 occlusion_weights[2];    // of those poses
     Light lights[BLUSH_MOST_LIGHTS];
 };
 
@@ -155,14 +165,16 @@ BLUSH_UNIFORM_BLOCK(MaterialBlock, BLUSH_MATERIAL_BINDING) {
     vec4 base_color_linear;
     vec4 emissive_linear;      // rgb; w unused
     vec4 metallic_roughness_normal_occlusion;  // factors; z scales the normal map
-    vec4 alpha;                // x: cutoff, or -1 without alpha test; y: 1 when the surface is opaque; zw unused
-    vec4 uv_rows[10];          // two rows of the 3x2 texture-coordinate transform of each of the five textures
+    vec4 alpha;                // x: cutoff, or -1 without alpha test; y: 1 when the surface is opaque; z: 1 when the base
+                               // colour's alpha is how far light scatters; w: factor on reflection
+    vec4 uv_rows[12];          // two rows of the 3x2 texture-coordinate transform of each of the six textures
     ivec4 uv_sets;             // texture-coordinate set of base colour, metallic-roughness, normal, occlusion
-    ivec4 emissive_uv_set;     // x: of emissive; yzw unused
+    ivec4 emissive_uv_set;     // x: of emissive; y: of specular; zw unused
 };
 
 BLUSH_UNIFORM_BLOCK(AppearanceBlock, BLUSH_APPEARANCE_BINDING) {
-    vec4 wrinkle_weights[2];  // of the zones, as the masks' channels hold them
+    vec4 wrinkle_weights[BLUSH_MOST_WRINKLE_MASKS];  // of the zones, as the masks' channels hold them
     vec4 wrinkle_range;       // x: derivative that the map's 1 stands for; yzw unused
-    vec4 blood;               // x: factor on the hemoglobin of the whole face; y: largest hemoglobin; zw unused
+    vec4 blood;               // x: factor on the hemoglobin of the whole face; y: largest hemoglobin; z: nodes of a side of the
+                              // colour table; w unused
 };

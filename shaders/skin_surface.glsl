@@ -3,9 +3,6 @@
 
 layout(binding = BLUSH_BECKMANN_UNIT) uniform sampler2D beckmann_map;  // 0.5 D^0.1 by n.h and roughness
 layout(binding = BLUSH_SPECULAR_ALBEDO_UNIT) uniform sampler2D specular_albedo_map;  // r: by n.l and roughness; g: mean
-#ifdef TRANSLUCENCY
-layout(binding = BLUSH_TRANSMITTANCE_UNIT) uniform sampler2D transmittance_map;  // T(s)
-#endif
 
 // Reflectance at normal incidence of an index of refraction of 1.4 (d'Eon and Luebke 2007). rig/skin_reflectance.h.
 const float skin_f0 = 0.028;
@@ -33,11 +30,15 @@ vec3 transmitted(int i, vec3 l, vec3 vertex_normal) {
     float back = max(0.3 - dot(vertex_normal, l), 0.0);
     if (back == 0.0 || lights[i].shadow.x < 0.0) return vec3(0.0);
     float thickness_mm = depth_inside(i, position_world - vertex_normal * (translucency.y / skin.x),
-                                      BLUSH_TRANSMITTANCE_END_MM / skin.x) *
+                                      translucency.z / skin.x) *
                          skin.x;
     // The paper leaves the thickness short by what the point was drawn in towards the light; a slab has it all.
     thickness_mm += translucency.y * max(-dot(vertex_normal, l), 0.0);
-    float u = clamp(thickness_mm / BLUSH_TRANSMITTANCE_END_MM, 0.0, 1.0);
-    return translucency.x * back * texture(transmittance_map, vec2(u, 0.5)).rgb;
+    if (!(thickness_mm < translucency.z)) return vec3(0.0);
+    vec3 passed = vec3(0.0);  // T(s), eq. 5.12
+    for (int k = 0; k < BLUSH_MOST_GAUSSIANS; ++k) {
+        passed += profile[k].rgb * exp(thickness_mm * thickness_mm * profile[k].w);
+    }
+    return translucency.x * back * passed;
 }
 #endif

@@ -8,7 +8,9 @@ in vec2 base_color_uv;
 layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
 #endif
 
-layout(location = 0) out vec4 speed_velocity;  // length, x, y
+// Length, x, y; and how far before the far plane the surface was in the last frame: 1 - window depth, which half floats
+// tell apart as finely far away as near. 0: nothing is drawn here.
+layout(location = 0) out vec4 speed_velocity;
 
 void main() {
 #ifdef ALPHA_TEST
@@ -17,8 +19,10 @@ void main() {
     // What was behind the camera was not on the screen: as far away as a velocity can say, four screens. The clamp keeps
     // half floats finite.
     vec2 velocity = vec2(4.0);
+    float before_far = 0.0;
     if (last_clip.w > 1e-6 && clip.w > 1e-6) {
         velocity = clamp(0.5 * (clip.xy / clip.w - last_clip.xy / last_clip.w), vec2(-4.0), vec2(4.0));
+        before_far = clamp(0.5 * (last_clip.w - last_clip.z) / last_clip.w, 0.0, 1.0);
     }
-    speed_velocity = vec4(length(velocity), velocity, 0.0);
+    speed_velocity = vec4(length(velocity), velocity, before_far);
 }

@@ -1,11 +1,16 @@
 // Wrinkles on the base normal (jimenez-2012, 8.2, listing 8.1). The zones share one map, so that their weighted masks are
 // summed before it is read: the eight additions of the listing become one.
 layout(binding = BLUSH_WRINKLE_MAP_UNIT) uniform sampler2D wrinkle_map;
-layout(binding = BLUSH_WRINKLE_MASK_1_UNIT) uniform sampler2D wrinkle_mask_1;
-layout(binding = BLUSH_WRINKLE_MASK_2_UNIT) uniform sampler2D wrinkle_mask_2;
+layout(binding = BLUSH_WRINKLE_MASKS_UNIT) uniform sampler2DArray wrinkle_masks;
 
 float wrinkle_strength(vec2 uv) {
-    return dot(texture(wrinkle_mask_1, uv), wrinkle_weights[0]) + dot(texture(wrinkle_mask_2, uv), wrinkle_weights[1]);
+    float strength = 0.0;
+    for (int mask = 0; mask < BLUSH_MOST_WRINKLE_MASKS; ++mask) {
+        // A mask of which no zone acts is not read: the same for the whole draw.
+        if (wrinkle_weights[mask] == vec4(0.0)) continue;
+        strength += dot(texture(wrinkle_masks, vec3(uv, mask)), wrinkle_weights[mask]);
+    }
+    return strength;
 }
 
 // `base`: a tangent-space normal of any length. A normal is its partial derivatives and 1, times its z: adding

@@ -45,16 +45,19 @@ Cells turned(const Cells& picture, unsigned way) {
     return out;
 }
 
-/// The orthogonal patterns: a line of `length` edges in the middle, at whose ends the contour leaves upwards, downwards
-/// or not at all (it then runs on to the border). side: -1, 0, +1; arm: length of the crossing edges, pixels.
+/// The orthogonal patterns (jimenez-2012, figures 9.4 and 10.3): a line of `length` edges in the middle, at whose ends
+/// the contour leaves upwards (-1), downwards (1), both ways (2: what is beyond is the other way round) or not at all
+/// (0: it runs on to the border). arm: length of the crossing edges, pixels.
 inline Pixels orthogonal_pattern(int left_side, int right_side, int length, int arm) {
     const int margin = 6, height = 16, width = length + 2 * margin, middle = height / 2;
     Pixels picture(width, height, {0, 0, 0, 1});
     for (int x = 0; x < width; ++x) {
-        int first = middle;
-        if (x < margin) first += left_side * arm;
-        if (x >= margin + length) first += right_side * arm;
-        for (int y = first; y < height; ++y) picture.at(x, y) = glm::vec4(1);
+        const int side = x < margin ? left_side : x >= margin + length ? right_side : 0;
+        const int first = side == 2 ? middle : middle + side * arm;
+        for (int y = 0; y < height; ++y) {
+            const bool inverted = side == 2 && std::abs(2 * (y - middle) + 1) < 2 * arm;
+            if ((y >= first) != inverted) picture.at(x, y) = glm::vec4(1);
+        }
     }
     return picture;
 }
@@ -116,14 +119,16 @@ inline Pixels painted(int width, int height, const std::function<glm::vec4(int, 
 inline std::vector<NamedPicture> antialias_pictures() {
     std::vector<NamedPicture> all;
     const auto add = [&](const std::string& name, const Pixels& picture) { all.push_back({name, picture}); };
-    for (const int left : {-1, 0, 1}) {
-        for (const int right : {-1, 0, 1}) {
-            for (const int length : {1, 4, 17, 40}) {
-                const int arm = length % 2 == 0 ? 1 : 3;
+    for (const int left : {-1, 0, 1, 2}) {
+        for (const int right : {-1, 0, 1, 2}) {
+            for (const auto& [length, arm] : {std::pair(1, 1), {4, 3}, {5, 1}, {17, 3}, {40, 1}}) {
                 const std::string name = "orthogonal " + std::to_string(left) + " " + std::to_string(right) + " of " +
                                          std::to_string(length) + ", arms " + std::to_string(arm);
-                add(name, orthogonal_pattern(left, right, length, arm));
-                add(name + ", turned", turned(orthogonal_pattern(left, right, length, arm), 5));
+                for (unsigned way = 0; way < 8; ++way) {
+                    if (length > 4 && way != 0 && way != 5) continue;
+                    add(name + ", way " + std::to_string(way),
+                        turned(orthogonal_pattern(left, right, length, arm), way));
+                }
             }
         }
     }

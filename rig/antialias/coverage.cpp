@@ -73,21 +73,22 @@ std::vector<CoverageShape> coverage_shapes(const CoverageDensity& density) {
         for (int offset = 0; offset < density.offsets; ++offset) {
             const dvec2 middle = centre(offset), along = direction(degrees), normal = across(along);
             const double at = glm::dot(middle, normal);
-            shapes.push_back({"half planes", {clipped(whole_picture(), normal, at)}});
+            shapes.push_back({"half planes", {clipped(whole_picture(), normal, at)}, degrees});
 
             // A wedge of 20 to 160 degrees; its opening turns and changes from shape to shape.
             const dvec2 other = direction(degrees + 20 + (offset * 37 + degrees * 11) % 141);
             const Polygon half = clipped(whole_picture(), -normal, -at);
-            shapes.push_back({"wedges", {clipped(half, across(other), glm::dot(middle, across(other)))}});
+            shapes.push_back({"wedges", {clipped(half, across(other), glm::dot(middle, across(other)))}, degrees});
 
             // The corner of a box: upright for half of the shapes, since most boxes on a screen are.
             const dvec2 side = offset % 2 == 0 ? direction(90.0 * (degrees % 4)) : along;
             const Polygon below = clipped(whole_picture(), across(side), glm::dot(middle, across(side)));
-            shapes.push_back({"corners", {clipped(below, side, glm::dot(middle, side))}});
+            shapes.push_back({"corners", {clipped(below, side, glm::dot(middle, side))}, degrees});
 
             // Lines 1 to 2 pixels wide.
             const double width = 1 + static_cast<double>(offset) / density.offsets;
-            shapes.push_back({"thin lines", {clipped(clipped(whole_picture(), normal, at + width), -normal, -at)}});
+            shapes.push_back(
+                {"thin lines", {clipped(clipped(whole_picture(), normal, at + width), -normal, -at)}, degrees});
         }
     }
     return shapes;

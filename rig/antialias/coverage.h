@@ -16,6 +16,7 @@ using Polygon = std::vector<glm::dvec2>;
 struct CoverageShape {
     std::string family;             ///< "half planes", "wedges", "corners", "thin lines"
     std::vector<Polygon> polygons;  ///< do not overlap; white on black
+    int degrees = 0;                ///< between a contour of it and the rows
 };
 
 inline constexpr int coverage_side_pixels = 64;  ///< of the square picture that the shapes are made for

@@ -48,6 +48,7 @@ KeptImage& kept_image(CharacterState& state, const TextureShape& shape) {
     if (!kept.color || kept.shape != shape) {
         kept.color = make_kept_texture(shape.format, shape);
         kept.speeds = make_kept_texture(PixelFormat::r16f, shape);
+        kept.depth = make_kept_texture(PixelFormat::depth32f, shape);
         kept.shape = shape;
     }
     return kept;
@@ -59,6 +60,12 @@ ResourceId import_kept_speeds(CharacterState& state) {
     kept.has_speeds = true;
     shape.format = PixelFormat::r16f;
     return state.graph.import_texture("kept speeds", kept.speeds.name(), shape);
+}
+
+ResourceId import_kept_depth(CharacterState& state, TextureShape shape) {
+    KeptImage& kept = kept_image(state, {picture_format(state.view->output), state.view->width, state.view->height, 1});
+    shape.format = PixelFormat::depth32f;
+    return state.graph.import_texture("scene depth", kept.depth.name(), shape);
 }
 
 void keep_for_next_frame(CharacterState& state, const View& view) {

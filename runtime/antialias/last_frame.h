@@ -27,6 +27,7 @@ struct Stance {
 struct KeptImage {
     gl::Texture color;        ///< display values, or radiance
     gl::Texture speeds;       ///< r16f: lengths of the velocities, filtered along with the colour
+    gl::Texture depth;        ///< depth32f: of the frame's last picture, which draws into it
     TextureShape shape;       ///< of color
     bool has_speeds = false;  ///< false: nothing moved, every speed is zero
 };
@@ -49,6 +50,9 @@ KeptImage& kept_image(CharacterState& state, const TextureShape& shape);
 
 /// The speeds of this frame to keep, as a resource of the graph that is written to.
 ResourceId import_kept_speeds(CharacterState& state);
+
+/// The depth of this frame's last picture, as a resource of the graph that is written to.
+ResourceId import_kept_depth(CharacterState& state, TextureShape shape);
 
 /// After the frame has run: what the next one compares itself with.
 void keep_for_next_frame(CharacterState& state, const View& view);

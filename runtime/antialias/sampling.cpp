@@ -44,10 +44,10 @@ glm::vec2 Sampling::sample_offset_pixels(std::uint32_t picture, std::uint32_t ph
 }
 
 Sampling find_sampling(const EffectSettings& settings, const View& view, std::uint32_t largest_sample_count,
-                       bool has_triangles) {
+                       bool on_screen) {
     Sampling sampling;
     sampling.mode = static_cast<AntialiasingMode>(settings.choice("antialiasing", "mode"));
-    if (!has_triangles) return {};
+    if (!on_screen) return {};
     const auto multisampled = [&](std::uint32_t wanted) {
         return std::clamp(wanted, 1U, std::max(1U, largest_sample_count));
     };

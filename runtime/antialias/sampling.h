@@ -44,9 +44,9 @@ struct Sampling {
     glm::vec2 sample_offset_pixels(std::uint32_t picture, std::uint32_t phase) const;
 };
 
-/// A frame of what has something to draw; of what has nothing, one sample is exact in every mode.
+/// on_screen: something may be drawn; where nothing is, one sample is exact in every mode.
 Sampling find_sampling(const EffectSettings& settings, const View& view, std::uint32_t largest_sample_count,
-                       bool has_triangles);
+                       bool on_screen);
 
 /// The camera whose pixel middles fall on `sample_offset_pixels` of `camera`'s pixels. The only way in which jitter
 /// reaches a frame: what draws geometry uses CharacterState::camera.

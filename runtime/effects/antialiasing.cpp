@@ -14,6 +14,7 @@
 #include "runtime/antialias/pictures.h"
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
+#include "runtime/on_screen.h"
 
 namespace blush {
 namespace {
@@ -134,8 +135,7 @@ void find_settings(CharacterState& state, Antialiasing& own) {
 Need need(const CharacterState& state) {
     if (!state.sampling.filtered) {
         return {.on = false,
-                .reason = !state.facts.has_triangles ? "the face has nothing to draw, so that the picture has no edges"
-                                                     : "antialiasing.mode asks for no filter",
+                .reason = state.facts.on_screen ? "antialiasing.mode asks for no filter" : nothing_to_draw(state.facts),
                 .can_be_forced = false};
     }
     return {.on = true, .reason = "antialiasing.mode asks for a filter"};

@@ -5,13 +5,25 @@
 
 #include "runtime/appearance_gpu.h"
 #include "runtime/appearance_probe.h"
+#include "runtime/effects/appearance_frames.h"
 #include "runtime/frame.h"
 
 namespace blush {
 namespace {
 
-constexpr std::array<std::string_view, 2> shown_choices = {"yes", "no"};
-constexpr std::array<Setting, 1> settings = {{{"shown", "yes: where the pose moves blood; no: never", shown_choices}}};
+constexpr std::array<std::string_view, 2> colours = {"texture", "pigments"};
+constexpr std::array<Setting, 3> settings = {{
+    shown_setting("yes: where the pose moves blood; no: never"),
+    {"colour",
+     "texture: the face's own texture, and what blood changes of it; pigments: the maps of melanin, hemoglobin and "
+     "residual alone, in every frame",
+     colours},
+    {.name = "table_nodes",
+     .meaning = "nodes of a side of the table of skin's colour",
+     .lowest = 2,
+     .highest = 512,
+     .default_number = 64},
+}};
 
 Need need(const CharacterState& state) {
     if (!state.appearance.pigments) {
@@ -19,9 +31,10 @@ Need need(const CharacterState& state) {
                 .reason = "the face has no maps of melanin and hemoglobin (blush bake appearance makes them)",
                 .can_be_forced = false};
     }
-    if (state.settings.choice("blood", "shown") == 1) {
+    if (is_hidden(state, "blood")) {
         return {.on = false, .reason = "blood.shown says no", .can_be_forced = false};
     }
+    if (colour_from_pigments(state)) return {.on = true, .reason = "blood.colour says pigments"};
     const bool neutral = std::ranges::all_of(state.pose.hemoglobin, [](float share) { return share == 0; });
     if (neutral && state.pose.hemoglobin_factor == 1) {
         return {.on = false, .reason = "the blood is as it is at rest: the skin has the colour of its texture"};
@@ -37,7 +50,7 @@ void declare(CharacterState& state) {
         .writes(state.resources.blood_change);
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
+std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
     std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
     if (!probe || !probe->state().appearance.pigments) return {};
     Study study{"anger on the face's texture, 256 x 256 points",
@@ -58,7 +71,9 @@ std::vector<Study> studies(const Device& device, const Face& face, double /*mill
     off.run = [probe] { probe->draw_colors(""); };
     off.error = [probe] { return probe->color_error("anger", false); };
     study.variants.push_back(std::move(off));
-    return {std::move(study)};
+    std::vector<Study> result = blood_frame_study(device, face, millimetres_a_unit);
+    result.push_back(std::move(study));
+    return result;
 }
 
 constexpr std::array<HardCase, 1> hard_cases = {{

@@ -90,6 +90,7 @@ const Lighting& study_backlight() {
         LightSource behind, front;
         behind.direction_world = {-0.4F, -0.2F, 0.9F};
         behind.radiance_linear = glm::vec3(5);
+        behind.size = front.size = 0.0625F;
         front.direction_world = {0.3F, -0.3F, -1};
         front.radiance_linear = glm::vec3(0.8F);
         made.lights = {behind, front};

@@ -4,18 +4,19 @@
 
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
+#include "runtime/on_screen.h"
 
 namespace blush {
 namespace {
 
-constexpr std::array<std::string_view, 2> resolve_choices = {"average", "hdr"};
-enum class Resolve : std::uint8_t { average, hdr };
+constexpr std::array<std::string_view, 3> resolve_choices = {"auto", "average", "hdr"};
+enum class Resolve : std::uint8_t { of_the_view, average, hdr };
 
 constexpr std::array<Setting, 1> settings = {{
     {"resolve",
      "average: the mean radiance of a pixel's samples; hdr: bright samples weigh less, so that edges of highlights are "
-     "smooth once shown",
-     resolve_choices, static_cast<std::uint8_t>(Resolve::average)},
+     "smooth once shown; auto: hdr for a display, average of a view that asks for radiance",
+     resolve_choices, static_cast<std::uint8_t>(Resolve::of_the_view)},
 }};
 
 struct Multisampling {
@@ -23,15 +24,16 @@ struct Multisampling {
 };
 
 Resolve resolve_of(const CharacterState& state) {
-    return static_cast<Resolve>(state.settings.choice("multisampling", "resolve"));
+    const auto wanted = static_cast<Resolve>(state.settings.choice("multisampling", "resolve"));
+    if (wanted != Resolve::of_the_view) return wanted;
+    return state.view->output == Output::display_srgb ? Resolve::hdr : Resolve::average;
 }
 
 Need need(const CharacterState& state) {
     if (state.sampling.samples == 1) {
-        return {
-            .on = false,
-            .reason = state.facts.has_triangles ? "one sample a pixel is asked for" : "the face has nothing to draw",
-            .can_be_forced = false};
+        return {.on = false,
+                .reason = state.facts.on_screen ? "one sample a pixel is asked for" : nothing_to_draw(state.facts),
+                .can_be_forced = false};
     }
     return {.on = true, .reason = "several samples a pixel are asked for"};
 }
@@ -78,12 +80,12 @@ void declare(CharacterState& state) {
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
     constexpr std::array<StudiedMode, 3> modes = {{
         {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
-        {.label = "multisampling.resolve=average", .work = "4 samples", .mode = "msaa4", .is_default = true},
-        {.label = "multisampling.resolve=hdr",
+        {.label = "multisampling.resolve=average",
          .work = "4 samples",
          .mode = "msaa4",
          .setting = "multisampling.resolve",
-         .choice = "hdr"},
+         .choice = "average"},
+        {.label = "multisampling.resolve=hdr", .work = "4 samples", .mode = "msaa4", .is_default = true},
     }};
     return antialiasing_studies(device, face, modes);
 }

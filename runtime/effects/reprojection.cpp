@@ -7,11 +7,14 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
+#include "runtime/on_screen.h"
 
 namespace blush {
 namespace {
 
-constexpr std::array<Setting, 1> settings = {{
+constexpr std::array<std::string_view, 2> rejection_choices = {"surface", "none"};
+
+constexpr std::array<Setting, 2> settings = {{
     {.name = "falloff",
      .meaning =
          "K of equation 10.6: how fast the last frame's share falls where speeds differ, for speeds in pictures a "
@@ -19,6 +22,11 @@ constexpr std::array<Setting, 1> settings = {{
      .lowest = 0,
      .highest = 1000,
      .default_number = 30},  // jimenez-2012, 10.4.4: "a value of 30 for all our examples"
+    {"rejection",
+     "surface: nothing is taken from where the last frame saw a surface that this one does not see there, moving "
+     "alike; "
+     "none: equation 10.6 alone, which leaves ghosts of what starts to move, or moves by less than a pixel",
+     rejection_choices, 0},
 }};
 
 struct Reprojection {
@@ -32,7 +40,7 @@ Need need(const CharacterState& state) {
     const auto mode = static_cast<AntialiasingMode>(state.settings.choice("antialiasing", "mode"));
     const bool asked = mode == AntialiasingMode::smaa_t2x || mode == AntialiasingMode::smaa_4x;
     if (!asked) return off("antialiasing.mode takes nothing from the last frame");
-    if (!state.facts.has_triangles) return off("the face has nothing to draw");
+    if (!state.facts.on_screen) return off(nothing_to_draw(state.facts));
     if (!state.sampling.temporal) {
         return off("there are no velocities (velocities.source=none): every frame stands alone");
     }
@@ -45,6 +53,8 @@ void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, 
     const LastFrame& last = state.own<LastFrame>();
     const KeptImage& before = last.images[1 - last.phase];
     const bool moves = state.on(velocities_effect);
+    // Forced velocities of what stands still are zero, and nothing is uncovered.
+    const bool rejects = moves && state.facts.moves && state.settings.choice("reprojection", "rejection") == 0;
     bind_output(state, graph, to);
     glUseProgram(state.own<Reprojection>().program.name());
     glBindTextureUnit(0, graph[from].handle);
@@ -54,11 +64,16 @@ void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, 
         glBindTextureUnit(2, graph[state.resources.velocities].handle);
         glBindTextureUnit(3, graph[state.resources.speeds].handle);
     }
-    if (before.has_speeds) glBindTextureUnit(4, before.speeds.name());
+    if (before.has_speeds) {
+        glBindTextureUnit(4, before.speeds.name());
+        glBindSampler(4, 0);
+    }
+    if (rejects) glBindTextureUnit(5, before.depth.name());
     glUniform1f(0, static_cast<float>(state.settings.number("reprojection", "falloff")));
     glUniform1i(1, state.view->output == Output::display_srgb ? 1 : 0);
     glUniform1i(2, moves ? 1 : 0);
     glUniform1i(3, before.has_speeds ? 1 : 0);
+    glUniform1i(4, rejects ? 1 : 0);
     draw_screen(state);
 }
 

@@ -1,6 +1,7 @@
 /// Subsurface scattering in screen space: the separable kernel of jimenez-2012, chapter 6, and its slower twins.
 
 #include <array>
+#include <cassert>
 
 #include "rig/separable_kernel.h"
 #include "runtime/effects/scattering.h"
@@ -11,10 +12,13 @@ namespace {
 
 constexpr std::array<std::string_view, 5> method_choices = {"separable", "gaussians4", "gaussians6", "jittered", "off"};
 constexpr std::array<std::string_view, 4> sample_choices = {"9", "17", "25", "33"};
-constexpr std::array<std::string_view, 2> kernel_choices = {"fitted", "preintegrated"};
+constexpr std::array<std::string_view, 2> kernel_choices = {"preintegrated", "fitted"};
+// "skin", then measured_materials() of rig/diffusion_profile.h in its order.
+constexpr std::array<std::string_view, 11> material_choices = {
+    "skin", "marble", "skin1", "skin2", "wholemilk", "skimmilk", "potato", "apple", "ketchup", "cream", "chicken1"};
 constexpr std::array<std::string_view, 2> follow_choices = {"on", "off"};
 
-constexpr std::array<Setting, 13> settings = {{
+constexpr std::array<Setting, 14> settings = {{
     {"method",
      "separable: two passes (jimenez-2012, chapter 6); gaussians4, gaussians6: two passes for each but the narrowest "
      "(chapter 4); jittered: one pass of thirteen taps (4.2); off: light leaves where it entered",
@@ -22,13 +26,16 @@ constexpr std::array<Setting, 13> settings = {{
     {"samples", "taps of a separable pass: 9, 17, 25 or 33, more of them for smoother edges of hard shadows",
      sample_choices, 1},
     {"kernel",
-     "of the separable passes; fitted: eq. 6.1 with strengths and falloffs; preintegrated: the profile's integral "
-     "along a "
-     "line, which has neither",
+     "of the separable passes; preintegrated: the profile's integral along a line, twice as near to the convolution; "
+     "fitted: eq. 6.1, of skin alone, with strengths and falloffs",
      kernel_choices, 0},
+    {"material",
+     "what light scatters in: skin (d'Eon and Luebke 2007), or, as Jensen et al. 2001 measured it: marble, skin1, "
+     "skin2, wholemilk, skimmilk, potato, apple, ketchup, cream, chicken1",
+     material_choices, 0},
     {"follow_surface", "on: light does not cross steps of depth; off: it does", follow_choices, 0},
     {"width", "how far light goes; 1: as the measured profile has it", {}, 0, 0.01, 10, 1.12},
-    {"strength_red", "share of red light that enters", {}, 0, 0, 1, 0.969},
+    {"strength_red", "share of red light that enters; of the fitted kernel", {}, 0, 0, 1, 0.969},
     {"strength_green", "share of green light that enters", {}, 0, 0, 1, 1},
     {"strength_blue", "share of blue light that enters", {}, 0, 0, 1, 1},
     {"falloff_red", "reach of red, as a factor on the red profile", {}, 0, 0.01, 1, 0.58},
@@ -47,7 +54,7 @@ constexpr std::array<Setting, 13> settings = {{
 struct State {
     ScatterPasses passes;
     KernelShape shape;
-    std::uint8_t kernel = 0;
+    std::uint8_t kernel = 0, material = 0, jittered_material = 0;
     std::vector<KernelTap> taps;
     JitteredKernel jittered;
     ResourceId first{}, second{}, third{}, stencil{}, scene{};
@@ -61,6 +68,22 @@ ScatterMethod method_of(const CharacterState& state) {
     return static_cast<ScatterMethod>(state.settings.choice("scattering", "method"));
 }
 
+bool of_skin(const CharacterState& state) { return state.settings.choice("scattering", "material") == 0; }
+
+/// Eq. 6.1 is a fit to skin: what else light scatters in has its profile's integral.
+bool is_fitted(const CharacterState& state) {
+    return of_skin(state) && state.settings.choice("scattering", "kernel") == 1;
+}
+
+/// The width that the settings ask for, 1 for the profile's own millimetres.
+double relative_width(const CharacterState& state) { return number(state, "width") / skin_kernel_shape().width; }
+
+/// As far as the farthest tap.
+double scatter_range_mm(const CharacterState& state) {
+    if (is_fitted(state)) return kernel_range_mm(scatter_kernel_shape(state));
+    return 3 * relative_width(state) * std::sqrt(scatter_profile(state).back().variance_mm2);
+}
+
 Need need(const CharacterState& state) {
     if (!state.facts.has_skin) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
     if (method_of(state) == ScatterMethod::off) {
@@ -71,7 +94,7 @@ Need need(const CharacterState& state) {
         state.lighting->sky_radiance_linear == glm::vec3(0) && state.lighting->ground_radiance_linear == glm::vec3(0)) {
         return {.on = false, .reason = "no light falls on the skin"};
     }
-    if (kernel_range_mm(scatter_kernel_shape(state)) * state.facts.skin_pixels_a_mm < 0.5) {
+    if (scatter_range_mm(state) * state.facts.skin_pixels_a_mm < 0.5) {
         // Every tap lies within the pixel. The bound: 0.1 of radiance, where a hard edge of light passes through it.
         return {.on = false,
                 .reason = "the kernel ends within half a pixel of its centre",
@@ -116,25 +139,32 @@ void scatter(CharacterState& state, const FrameGraph& graph) {
             const KernelShape shape = scatter_kernel_shape(state);
             const std::uint32_t samples = 9U + 8U * state.settings.choice("scattering", "samples");
             const std::uint8_t kernel = state.settings.choice("scattering", "kernel");
-            if (!(own.shape == shape) || own.kernel != kernel || own.taps.size() != samples) {
+            const std::uint8_t material = state.settings.choice("scattering", "material");
+            if (!(own.shape == shape) || own.kernel != kernel || own.material != material ||
+                own.taps.size() != samples) {
                 own.shape = shape;
                 own.kernel = kernel;
-                own.taps = kernel == 0 ? separable_kernel(shape, samples)
-                                       : preintegrated_kernel(skin_six_gaussians(),
-                                                              shape.width / skin_kernel_shape().width, samples);
+                own.material = material;
+                own.taps = is_fitted(state)
+                               ? separable_kernel(shape, samples)
+                               : preintegrated_kernel(scatter_profile(state), relative_width(state), samples);
             }
             own.passes.separable(input, own.taps, {.first = handle(own.first), .stencil = handle(own.stencil)}, scene);
             break;
         }
         case ScatterMethod::gaussians4:
         case ScatterMethod::gaussians6: {
-            const bool four = method_of(state) == ScatterMethod::gaussians4;
+            const bool four = method_of(state) == ScatterMethod::gaussians4 && of_skin(state);
             const ScatterScratch scratch{handle(own.first), handle(own.second), handle(own.third), 0};
-            own.passes.gaussians(input, four ? skin_four_gaussians() : skin_six_gaussians(), scratch, scene);
+            own.passes.gaussians(input, four ? skin_four_gaussians() : scatter_profile(state), scratch, scene);
             break;
         }
         case ScatterMethod::jittered:
-            if (own.jittered.wide.radius_mm == 0) own.jittered = jittered_kernel(skin_six_gaussians());
+            if (own.jittered.wide.radius_mm == 0 ||
+                own.jittered_material != state.settings.choice("scattering", "material")) {
+                own.jittered_material = state.settings.choice("scattering", "material");
+                own.jittered = jittered_kernel(scatter_profile(state));
+            }
             own.passes.jittered(input, own.jittered, scene);
             break;
         case ScatterMethod::off:
@@ -195,6 +225,21 @@ constexpr std::array<HardCase, 6> hard_cases = {{
 }};
 
 }  // namespace
+
+std::span<const GaussianTerm> scatter_profile(const CharacterState& state) {
+    const std::uint8_t material = state.settings.choice(scattering_effect.name, "material");
+    if (material == 0) return skin_six_gaussians();
+    static std::array<std::vector<GaussianTerm>, material_choices.size()> fitted = [] {
+        std::array<std::vector<GaussianTerm>, material_choices.size()> made;
+        const auto materials = measured_materials();
+        for (std::size_t m = 0; m < materials.size(); ++m) {
+            assert(materials[m].name == material_choices[m + 1]);
+            made[m + 1] = gaussians_of(materials[m]);
+        }
+        return made;
+    }();
+    return fitted[material];
+}
 
 KernelShape scatter_kernel_shape(const CharacterState& state) {
     return {number(state, "width"),

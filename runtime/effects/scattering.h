@@ -1,6 +1,7 @@
 #pragma once
 /// What the scattering effect, its studies and the frame share.
 
+#include <span>
 #include <vector>
 
 #include "rig/separable_kernel.h"
@@ -15,6 +16,8 @@ struct ScatterCapture {
     GLuint light = 0, albedo = 0, depth = 0;
 };
 
+/// The profile of the material that the settings name.
+std::span<const GaussianTerm> scatter_profile(const CharacterState& state);
 /// The kernel that the settings ask for.
 KernelShape scatter_kernel_shape(const CharacterState& state);
 /// Step of depth that light does not cross; 0: it crosses all.

@@ -95,21 +95,29 @@ Variant::Error error_of(Scene& scene) {
     glGetTextureImage(scene.albedo.name(), 0, GL_RGBA, GL_FLOAT,
                       static_cast<GLsizei>(albedo.size() * sizeof(albedo[0])), albedo.data());
     Variant::Error error;
-    double light = 0, count = 0;
+    double count = 0;
+    glm::dvec3 light(0);
     for (std::size_t p = 0; p < out.size(); ++p) {
         if (p % side_pixels % every != 0 || p / side_pixels % every != 0 || !(scene.image.light[p].a > 0)) continue;
         for (glm::length_t c = 0; c < 3; ++c) {
             const double reflected = scene.exact[p][c] * static_cast<double>(albedo[p][c]);
             const double difference = std::abs(static_cast<double>(out[p][c]) - reflected);
-            error.mean += difference;
-            error.worst = std::max(error.worst, difference);
-            light += reflected;
-            ++count;
+            const auto channel = static_cast<std::size_t>(c);
+            error.channel_mean[channel] += difference;
+            error.channel_worst[channel] = std::max(error.channel_worst[channel], difference);
+            light[c] += reflected;
         }
+        ++count;
     }
-    if (light > 0) {
-        error.worst *= 100 * count / light;
-        error.mean *= 100 / light;
+    // Of all channels: against their mean, so that a dark blue does not count as
+    // much as a bright red.
+    const double all = light.r + light.g + light.b;
+    for (std::size_t c = 0; c < 3; ++c) {
+        error.mean += all > 0 ? 100 * error.channel_mean[c] / all : 0;
+        error.worst = std::max(error.worst, all > 0 ? 300 * count * error.channel_worst[c] / all : 0);
+        const double own = light[static_cast<glm::length_t>(c)];
+        error.channel_mean[c] *= own > 0 ? 100 / own : 0;
+        error.channel_worst[c] *= own > 0 ? 100 * count / own : 0;
     }
     return error;
 }
@@ -154,13 +162,13 @@ std::vector<Study> scattering_studies(const Device& device, const Face& face, do
     };
     const ScatterScratch scratch{scene->first.name(), scene->second.name(), scene->third.name(), scene->stencil.name()};
     for (const std::uint32_t samples : {9U, 17U, 25U, 33U}) {
-        const std::vector<KernelTap> taps = separable_kernel(scatter_kernel_shape(scene->character.state()), samples);
+        const std::vector<KernelTap> taps = preintegrated_kernel(skin_six_gaussians(), 1, samples);
         add("scattering.samples=" + std::to_string(samples), ScatterMethod::separable, samples,
             [taps, scratch](Scene& s) { s.passes.separable(s.input, taps, scratch, s.scene.name()); });
     }
-    const std::vector<KernelTap> line = preintegrated_kernel(skin_six_gaussians(), 1, 17);
-    add("scattering.kernel=preintegrated", ScatterMethod::separable, 17,
-        [line, scratch](Scene& s) { s.passes.separable(s.input, line, scratch, s.scene.name()); });
+    const std::vector<KernelTap> fitted = separable_kernel(scatter_kernel_shape(scene->character.state()), 17);
+    add("scattering.kernel=fitted", ScatterMethod::separable, 17,
+        [fitted, scratch](Scene& s) { s.passes.separable(s.input, fitted, scratch, s.scene.name()); });
     for (const ScatterMethod method : {ScatterMethod::gaussians4, ScatterMethod::gaussians6}) {
         const bool four = method == ScatterMethod::gaussians4;
         add(four ? "scattering.method=gaussians4" : "scattering.method=gaussians6", method, 0,

@@ -12,10 +12,13 @@ namespace {
 
 constexpr std::array<std::string_view, 2> method_choices = {"maps", "off"};
 constexpr std::array<std::string_view, 3> size_choices = {"512", "1024", "2048"};
-constexpr std::array<Setting, 2> settings = {{
+constexpr std::array<std::string_view, 2> edge_choices = {"soft", "sharp"};
+constexpr std::array<Setting, 3> settings = {{
     {"method", "maps: a shadow map for each light that casts one; off: light goes through everything", method_choices,
      0},
     {"size", "texels along a side of a light's map: 512, 1024 or 2048", size_choices, 1},
+    {"edges", "soft: as wide as the light's size and the distance of what casts them make them; sharp: as the map is",
+     edge_choices, 0},
 }};
 
 Need need(const CharacterState& state) {
@@ -114,6 +117,10 @@ void declare(CharacterState& state) {
 std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
     std::vector<Study> result = frame_study(device, face, millimetres_a_unit,
                                             {"shadows.size", {"512", "1024", "2048"}, 1, "2048", &study_backlight()});
+    for (Study& study : frame_study(device, face, millimetres_a_unit,
+                                    {"shadows.edges", {"soft", "sharp"}, 0, "soft", &study_backlight()})) {
+        result.push_back(std::move(study));
+    }
     for (Study& study : frame_study(device, face, millimetres_a_unit,
                                     {"shadows.method", {"maps", "off"}, 0, "maps", &study_backlight()})) {
         result.push_back(std::move(study));

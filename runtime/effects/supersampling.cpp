@@ -10,6 +10,7 @@
 #include "runtime/antialias/pictures.h"
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
+#include "runtime/on_screen.h"
 
 namespace blush {
 namespace {
@@ -29,10 +30,9 @@ struct Supersampling {
 
 Need need(const CharacterState& state) {
     if (state.sampling.pictures == 1) {
-        return {
-            .on = false,
-            .reason = state.facts.has_triangles ? "one picture a frame is asked for" : "the face has nothing to draw",
-            .can_be_forced = false};
+        return {.on = false,
+                .reason = state.facts.on_screen ? "one picture a frame is asked for" : nothing_to_draw(state.facts),
+                .can_be_forced = false};
     }
     return {.on = true, .reason = "several pictures a frame are asked for"};
 }

@@ -7,15 +7,17 @@
 #include "runtime/appearance_gpu.h"
 #include "runtime/appearance_probe.h"
 #include "runtime/effect.h"
+#include "runtime/effects/appearance_frames.h"
+#include "runtime/gl/state_guard.h"
+#include "runtime/signed_texture.h"
 
 namespace blush {
 namespace {
 
 constexpr std::array<std::string_view, 2> encodings = {"derivatives", "differences"};
 constexpr std::array<std::string_view, 3> storages = {"compressed", "plain", "half_float"};
-constexpr std::array<std::string_view, 2> shown_choices = {"yes", "no"};
 constexpr std::array<Setting, 4> settings = {{
-    {"shown", "yes: where the pose wrinkles the skin; no: never", shown_choices},
+    shown_setting("yes: where the pose wrinkles the skin; no: never"),
     {"encoding",
      "derivatives: partial derivatives, which add up as heights do; differences: differences of normals, which are "
      "right "
@@ -42,7 +44,7 @@ Need need(const CharacterState& state) {
                 .reason = "the face has no wrinkle maps (blush bake wrinkles makes them)",
                 .can_be_forced = false};
     }
-    if (state.settings.choice("wrinkles", "shown") == 1) {
+    if (is_hidden(state, "wrinkles")) {
         return {.on = false, .reason = "wrinkles.shown says no", .can_be_forced = false};
     }
     if (!any_wrinkle(state)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
@@ -58,8 +60,41 @@ Need need(const CharacterState& state) {
 
 void declare(CharacterState& state) { wrinkle_textures(state); }
 
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    std::vector<Study> result;
+/// The face's base normal map as derivatives, against the vectors of its image.
+std::optional<Study> base_map_study(const Face& face, const std::shared_ptr<AppearanceProbe>& probe) {
+    const auto material = std::ranges::find_if(face.materials, [](const Material& m) { return m.normal.image >= 0; });
+    if (material == face.materials.end()) return std::nullopt;
+    const auto image = std::make_shared<const Image>(face.images[static_cast<std::size_t>(material->normal.image)]);
+    Study study{"base normal map of the face, " + std::to_string(image->width) + " texels wide",
+                "the vectors of its image",
+                "degrees",
+                {},
+                probe};
+    constexpr std::array<std::pair<const char*, GLenum>, 3> formats = {
+        {{"RGTC2, 1 byte a texel", GL_COMPRESSED_SIGNED_RG_RGTC2},
+         {"2 bytes a texel", GL_RG8_SNORM},
+         {"half floats, 4 bytes a texel", GL_RG16F}}};
+    for (const auto& [name, format] : formats) {
+        Variant variant;
+        variant.label = name;
+        variant.work = "made and read back";
+        variant.is_default = study.variants.empty();
+        variant.run = [image, probe, format = format] {
+            const gl::StateGuard guard;
+            (void)base_normal_error(*image, format);
+        };
+        variant.error = [image, probe, format = format] {
+            const gl::StateGuard guard;
+            const BaseNormalError error = base_normal_error(*image, format);
+            return Variant::Error{error.mean, error.worst};
+        };
+        study.variants.push_back(std::move(variant));
+    }
+    return study;
+}
+
+std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
+    std::vector<Study> result = wrinkle_frame_study(device, face, millimetres_a_unit);
     std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
     if (!probe || !probe->state().appearance.wrinkles) return result;
 
@@ -74,7 +109,7 @@ std::vector<Study> studies(const Device& device, const Face& face, double /*mill
         variant.is_default = s == 0;
         const auto choose = [probe, s] { (void)probe->character().set("wrinkles.storage", storages[s]); };
         choose();
-        variant.work = std::to_string(wrinkle_textures(probe->state()).bytes) + " bytes with masks";
+        variant.work = std::to_string(wrinkle_textures(probe->state()).bytes) + " bytes with mip levels and masks";
         variant.run = [probe, choose] {
             choose();
             probe->draw_normals(0.7F);
@@ -112,6 +147,7 @@ std::vector<Study> studies(const Device& device, const Face& face, double /*mill
         combined.variants.push_back(std::move(variant));
     }
     result.push_back(std::move(combined));
+    if (std::optional<Study> base = base_map_study(face, probe)) result.push_back(*std::move(base));
     return result;
 }
 

@@ -25,6 +25,8 @@ public:
         if (name_ != 0) Delete(name_);
     }
     GLuint name() const { return name_; }
+    /// Leaves the object to the caller.
+    GLuint release() { return std::exchange(name_, 0); }
     explicit operator bool() const { return name_ != 0; }
 
 private:

@@ -92,7 +92,10 @@ const std::vector<Block>& shared_blocks() {
           {"world_from_lids", offsetof(FrameBlock, world_from_lids)},
           {"eye_data", offsetof(FrameBlock, eye_data)},
           {"lid_points[0]", offsetof(FrameBlock, lid_points)},
+          {"profile[0]", offsetof(FrameBlock, profile)},
           {"counts", offsetof(FrameBlock, counts)},
+          {"occlusion_poses", offsetof(FrameBlock, occlusion_poses)},
+          {"occlusion_weights[0]", offsetof(FrameBlock, occlusion_weights)},
           {"lights[0].position_world", offsetof(FrameBlock, lights)},
           {"lights[0].radiance_linear", offsetof(FrameBlock, lights) + offsetof(Light, radiance_linear)},
           {"lights[0].cone_world", offsetof(FrameBlock, lights) + offsetof(Light, cone_world)},
@@ -158,8 +161,12 @@ Result<std::string> expand_shader(std::string_view file, std::span<const std::st
     return out;
 }
 
-Result<Program> make_program(const ProgramSource& source) {
-    Program program(glCreateProgram());
+namespace {
+
+void delete_program(GLuint name) { glDeleteProgram(name); }
+
+Result<Program> compile_program(const ProgramSource& source) {
+    Object<delete_program> program(glCreateProgram());
     const auto attach = [&](GLenum stage, std::string_view file) -> Status {
         const Result<GLuint> shader = compile(stage, file, source.defines);
         if (!shader) return shader.error();
@@ -188,7 +195,45 @@ Result<Program> make_program(const ProgramSource& source) {
         return Error{"program of " + std::string(first) + " does not link: " + log.data()};
     }
     if (Status blocks = check_blocks(program.name(), first); !blocks) return blocks.error();
-    return program;
+    return Program(program.release());
+}
+
+/// What tells one program from another: names of files and outputs have no line breaks.
+std::string key_of(const ProgramSource& source) {
+    std::string key;
+    for (const std::string_view file : {source.vertex, source.fragment, source.compute}) key.append(file).append("\n");
+    for (const std::string_view define : source.defines) key.append(define).append("\n");
+    for (const char* output : source.streamed_out) key.append("\n").append(output);
+    return key;
+}
+
+thread_local ProgramCache* current_cache = nullptr;
+
+}  // namespace
+
+ProgramCache::~ProgramCache() {
+    if (current_cache == this) current_cache = nullptr;
+}
+
+ProgramCache* ProgramCache::current() { return current_cache; }
+void ProgramCache::make_current() { current_cache = this; }
+
+void ProgramCache::clear() {
+    for (const auto& [key, program] : programs_) glDeleteProgram(program.name());
+    programs_.clear();
+}
+
+Result<Program> ProgramCache::get(const ProgramSource& source) {
+    const std::string key = key_of(source);
+    if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+    Result<Program> made = compile_program(source);
+    if (made) programs_.emplace(key, *made);
+    return made;
+}
+
+Result<Program> make_program(const ProgramSource& source) {
+    if (current_cache == nullptr) return Error{"no device is current on this thread"};
+    return current_cache->get(source);
 }
 
 void require_program(Program& program, const ProgramSource& source) {

@@ -1,7 +1,8 @@
 #pragma once
-/// Programs from the embedded shaders.
+/// Programs from the embedded shaders, each compiled once for a context.
 
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,8 +12,18 @@
 
 namespace blush::gl {
 
-inline void delete_program(GLuint name) { glDeleteProgram(name); }
-using Program = Object<delete_program>;
+/// A program that its context's ProgramCache keeps: a name, free to copy. 0 is no program. Uniforms are whatever the
+/// last user left: whoever draws sets all that the program has.
+class Program {
+public:
+    Program() = default;
+    explicit Program(GLuint name) : name_(name) {}
+    GLuint name() const { return name_; }
+    explicit operator bool() const { return name_ != 0; }
+
+private:
+    GLuint name_ = 0;
+};
 
 struct ProgramSource {
     std::string_view vertex = {};                    ///< file name in shaders/
@@ -22,8 +33,31 @@ struct ProgramSource {
     std::string_view compute = {};                   ///< file name of a compute program, which has no other stage
 };
 
-/// Compiles and links, and checks every uniform block of shared.glsl against its C++ struct. An error names the file,
-/// the permutation and the driver's log: it is a defect of the library or of the driver, never of the user's data.
+/// The programs of one context, which all that draws in it share: a second character of the same kind compiles nothing.
+/// A Device has one, and makes it the current one of its thread where it makes its context current.
+class ProgramCache {
+public:
+    ProgramCache() = default;
+    ProgramCache(const ProgramCache&) = delete;
+    ProgramCache& operator=(const ProgramCache&) = delete;
+    ~ProgramCache();
+
+    static ProgramCache* current();
+    void make_current();
+    /// Deletes every program; their context is current. Without this they go when it goes.
+    void clear();
+
+    std::size_t size() const { return programs_.size(); }
+    /// As make_program().
+    Result<Program> get(const ProgramSource& source);
+
+private:
+    std::map<std::string, Program, std::less<>> programs_;
+};
+
+/// The program of these sources in the current cache. Where it is not there yet: compiles and links, and checks every
+/// uniform block of shared.glsl against its C++ struct. An error names the file, the permutation and the driver's log:
+/// it is a defect of the library or of the driver, never of the user's data.
 Result<Program> make_program(const ProgramSource& source);
 
 /// For programs that are made when a frame first needs them, where nobody can take an error: a failure is a defect, and

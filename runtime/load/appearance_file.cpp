@@ -290,26 +290,42 @@ Status write_hemoglobin_maps(const fs::path& folder, const HemoglobinMaps& maps)
     return Done{};
 }
 
+namespace {
+
+/// Scale and offset of one expression. Texels that are not finite change nothing.
+Result<HemoglobinChange> load_change(const fs::path& path) {
+    return guarded<HemoglobinChange>(path, [&] {
+        constexpr std::uint32_t most_side = 4096;
+        const Image image = decode(path).image;
+        if (image.channels < 2) load::refuse("", "the image has 1 channel; scale and offset stand in the first two");
+        if (image.width > most_side || image.height > most_side)
+            load::refuse("", "more than " + std::to_string(most_side) + " texels a side");
+        HemoglobinChange change{ScalarMap(image.width, image.height, 1), ScalarMap(image.width, image.height)};
+        for (std::size_t i = 0; i < change.scale.values.size(); ++i) {
+            const float scale = number_at(image, i * image.channels), offset = number_at(image, i * image.channels + 1);
+            if (!std::isfinite(scale) || !std::isfinite(offset)) continue;
+            change.scale.values[i] = std::clamp(scale, 0.0F, largest_hemoglobin_scale);
+            change.offset.values[i] = offset;
+        }
+        return change;
+    });
+}
+
+}  // namespace
+
 Result<HemoglobinMaps> load_hemoglobin_maps(const fs::path& folder) {
-    constexpr std::uint32_t most_side = 4096;
     HemoglobinMaps maps;
     for (const std::string& name : hemoglobin_pattern_names) {
         const fs::path path = folder / (name + ".exr");
         std::error_code failed;
         if (!fs::exists(path, failed)) continue;
-        const Result<ColourMap> read = load_colour_map(path);
+        const Result<HemoglobinChange> read = load_change(path);
         if (!read) return read.error();
-        if (read->width > most_side || read->height > most_side)
-            return Error{path.string() + ": more than " + std::to_string(most_side) + " texels a side"};
-        HemoglobinChange change{ScalarMap(read->width, read->height), ScalarMap(read->width, read->height)};
-        for (std::size_t i = 0; i < read->values.size(); ++i) {
-            change.scale.values[i] = std::clamp(read->values[i].r, 0.0F, largest_hemoglobin_scale);
-            change.offset.values[i] = read->values[i].g;
-        }
+        const HemoglobinChange& change = *read;
         if (!maps.changes.empty() && !maps.changes[0].scale.same_size(change.scale))
             return Error{path.string() + ": its size is not that of " + maps.names[0] + ".exr"};
         maps.names.push_back(name);
-        maps.changes.push_back(std::move(change));
+        maps.changes.push_back(change);
     }
     return maps;
 }

@@ -12,9 +12,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view understood_extensions[] = {"KHR_mesh_quantization", "EXT_meshopt_compression",
+constexpr std::string_view understood_extensions[] = {"KHR_mesh_quantization",      "EXT_meshopt_compression",
                                                       "KHR_draco_mesh_compression", "KHR_texture_transform",
-                                                      "KHR_texture_basisu"};
+                                                      "KHR_texture_basisu",         "KHR_materials_specular"};
 
 bool is_understood(std::string_view name) {
     return std::ranges::find(understood_extensions, name) != std::end(understood_extensions);

@@ -68,6 +68,13 @@ public:
         material.double_sided = source.doubleSided;
         const json* says_skin = member(member(&described, "extras"), "blush_skin");
         if (says_skin != nullptr && says_skin->is_boolean()) material.skin = says_skin->get<bool>();
+        const json* by_alpha = member(member(&described, "extras"), "blush_scattering");
+        material.scatter_by_alpha = material.alpha_mode == AlphaMode::opaque && by_alpha != nullptr &&
+                                    by_alpha->is_string() && *by_alpha == "base_color_alpha";
+        const json* specular = member(member(&described, "extensions"), "KHR_materials_specular");
+        material.specular = std::clamp(number_or(specular, "specularFactor", 1), 0.0F, 1.0F);
+        material.specular_map = texture_use(member(specular, "specularTexture"),
+                                            place + ".extensions.KHR_materials_specular.specularTexture");
         const json* pbr_json = member(&described, "pbrMetallicRoughness");
         material.base_color_srgb =
             texture_use(member(pbr_json, "baseColorTexture"), place + ".pbrMetallicRoughness.baseColorTexture");

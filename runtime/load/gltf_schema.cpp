@@ -110,6 +110,7 @@ constexpr Rule rules[] = {
     {"materials[].doubleSided", Kind::boolean},
     {"materials[].normalTexture.scale", Kind::number},
     {"materials[].occlusionTexture.strength", Kind::number},
+    {"materials[].extensions.KHR_materials_specular.specularFactor", Kind::number},
 
     {"textures[].source", Kind::index, false, "images"},
     {"textures[].sampler", Kind::index, false, "samplers"},
@@ -122,9 +123,12 @@ constexpr Rule rules[] = {
     {"images[].bufferView", Kind::index, false, "bufferViews"},
 };
 
-constexpr std::string_view texture_uses[] = {
-    "materials[].pbrMetallicRoughness.baseColorTexture", "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
-    "materials[].normalTexture", "materials[].occlusionTexture", "materials[].emissiveTexture"};
+constexpr std::string_view texture_uses[] = {"materials[].pbrMetallicRoughness.baseColorTexture",
+                                             "materials[].pbrMetallicRoughness.metallicRoughnessTexture",
+                                             "materials[].normalTexture",
+                                             "materials[].occlusionTexture",
+                                             "materials[].emissiveTexture",
+                                             "materials[].extensions.KHR_materials_specular.specularTexture"};
 
 constexpr Rule texture_use_rules[] = {
     {"index", Kind::index, true, "textures"},

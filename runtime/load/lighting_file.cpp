@@ -85,6 +85,10 @@ LightSource light_from(const json& object, const std::string& place, glm::vec3 c
     if (light.orbit_seconds != 0 && std::abs(light.orbit_seconds) < 0.1F) {
         refuse(place + ".orbit_seconds", "a light goes round in a tenth of a second at least");
     }
+    // Half of what it measures across: a light has a radius.
+    light.size = light.kind == LightKind::directional
+                     ? static_cast<float>(glm::radians(0.5 * number(object, "size_degrees", 0, 0, 57, place)))
+                     : static_cast<float>(0.5 * number(object, "size_mm", 0, 0, 1e6, place) * scale);
     const auto casts = object.find("casts_shadow");
     if (casts != object.end()) {
         if (!casts->is_boolean()) refuse(place + ".casts_shadow", "it is neither true nor false");
@@ -93,8 +97,10 @@ LightSource light_from(const json& object, const std::string& place, glm::vec3 c
     return light;
 }
 
+/// A studio lamp behind an umbrella: half a metre wide at four metres.
 LightSource from(glm::vec3 towards, glm::vec3 radiance_linear) {
     LightSource light;
+    light.size = 0.0625F;
     light.direction_world = -glm::normalize(towards);
     light.radiance_linear = radiance_linear;
     return light;
@@ -114,12 +120,13 @@ Result<Lighting> named_lighting(std::string_view name) {
         lighting.lights = {from({0.25F, 0.3F, -1}, {6, 5.8F, 5.5F}), from({-0.5F, 0.2F, 1}, {0.12F, 0.14F, 0.18F})};
     } else if (name == "orbit") {
         constexpr float minute_seconds = 60;
-        // Ears need a light behind them that is several times as bright as the one in front.
-        lighting.lights = {from({-0.3F, 0.3F, 1}, {2.9F, 2.8F, 2.65F}), from({0.25F, 0.35F, 1}, {0.7F, 0.7F, 0.74F})};
+        // Ears need a light behind them that is ten times as bright as the one in front; with automatic exposure the
+        // face is not too bright when it comes round.
+        lighting.lights = {from({-0.3F, 0.3F, 1}, {5.0F, 4.8F, 4.5F}), from({0.25F, 0.35F, 1}, {0.5F, 0.5F, 0.53F})};
         lighting.lights[0].orbit_seconds = minute_seconds;
         lighting.lights[1].casts_shadow = false;
-        lighting.sky_radiance_linear = {0.16F, 0.17F, 0.19F};
-        lighting.ground_radiance_linear = {0.06F, 0.055F, 0.05F};
+        lighting.sky_radiance_linear = {0.1F, 0.11F, 0.12F};
+        lighting.ground_radiance_linear = {0.04F, 0.037F, 0.035F};
     } else {
         return Error{"there is no lighting \"" + std::string(name) +
                      "\" (there are: front, side, behind, orbit; or a .json file)"};

@@ -21,8 +21,9 @@ using Json = nlohmann::json;
 constexpr std::uint64_t most_file_bytes = 1ULL << 28;
 constexpr std::uint32_t most_side_texels = 8192;
 constexpr const char* derivatives_name = "wrinkles";
-constexpr std::array<const char*, 2> mask_names = {"wrinkle_mask_1", "wrinkle_mask_2"};
-constexpr std::size_t zones_a_mask = 4;
+constexpr std::array<const char*, most_wrinkle_masks> mask_names = {"wrinkle_mask_1", "wrinkle_mask_2",
+                                                                    "wrinkle_mask_3"};
+constexpr std::size_t zones_a_mask = zones_a_wrinkle_mask;
 
 struct Picture {
     fs::path path;
@@ -115,7 +116,7 @@ WrinkleSet read_set(const fs::path& folder) {
             load::refuse(picture.path.filename().string(),
                          "is " + std::to_string(picture.image.width) + "x" + std::to_string(picture.image.height) +
                              " texels and " + mask_names[0] + " " + std::to_string(set.masks[0].width) + "x" +
-                             std::to_string(set.masks[0].height) + "; both masks are of one size");
+                             std::to_string(set.masks[0].height) + "; masks are of one size");
         for (std::uint32_t c = 0; c < here; ++c) {
             ScalarMap mask(picture.image.width, picture.image.height);
             for (std::size_t i = 0; i < mask.values.size(); ++i)
@@ -146,7 +147,7 @@ Status write_png(const fs::path& path, const Image& image) {
 Status write_wrinkles(const fs::path& folder, const WrinkleSet& wrinkles) {
     if (wrinkles.zones.size() > most_wrinkle_zones) {
         return Error{folder.string() + ": " + std::to_string(wrinkles.zones.size()) +
-                     " wrinkle zones; two masks hold " + std::to_string(most_wrinkle_zones)};
+                     " wrinkle zones; the masks hold " + std::to_string(most_wrinkle_zones)};
     }
     // The third channel is for the eye: the file then looks as figure 8.3 does.
     Image derivatives = blank(wrinkles.derivatives.width, wrinkles.derivatives.height, 3);

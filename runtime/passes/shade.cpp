@@ -8,9 +8,11 @@
 #include "runtime/appearance_gpu.h"
 #include "runtime/draw_face.h"
 #include "runtime/effects/parts.h"
+#include "runtime/effects/scattering.h"
 #include "runtime/environment_map.h"
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/occlusion_gpu.h"
 #include "runtime/shadow_maps.h"
 #include "runtime/skin_tables.h"
 
@@ -28,10 +30,23 @@ std::uint32_t frame_bits(const CharacterState& state) {
         const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
         bits |= differences ? shade_wrinkles | shade_wrinkle_differences : shade_wrinkles;
     }
-    if (state.on(blood_effect)) bits |= shade_blood;
+    if (state.on(blood_effect)) bits |= colour_from_pigments(state) ? shade_blood | shade_pigment_colour : shade_blood;
     if (state.on(environment_effect)) bits |= shade_environment;
+    if (state.on(occlusion_effect)) bits |= shade_ambient_occlusion;
     if (state.on(parts_effect)) bits |= parts_bits(state);
     return bits;
+}
+
+/// T(s) of the material: jimenez-2012, eq. 5.12, as it follows from the profile or as it is printed.
+void write_profile(const CharacterState& state, shared::FrameBlock& block) {
+    const std::span<const GaussianTerm> profile = scatter_profile(state);
+    const bool derived = state.settings.choice(translucency_effect.name, "attenuation") == 0;
+    for (std::size_t k = 0; k < profile.size(); ++k) {
+        const double exponent = -1 / ((derived ? 2 : 1) * profile[k].variance_mm2);
+        block.profile[k] = glm::vec4(glm::vec3(profile[k].weight), static_cast<float>(exponent));
+    }
+    // Four standard deviations of the widest: less than a thousandth of anything passes.
+    block.translucency.z = static_cast<float>(4 * std::sqrt(profile.back().variance_mm2));
 }
 
 shared::FrameBlock frame_block(CharacterState& state) {
@@ -43,7 +58,8 @@ shared::FrameBlock frame_block(CharacterState& state) {
     block.depth_from_world = -rows[2];
     block.sky_radiance_linear = glm::vec4(state.lighting->sky_radiance_linear, 0);
     block.ground_radiance_linear = glm::vec4(state.lighting->ground_radiance_linear, 0);
-    if (state.on(environment_effect)) write_environment(state, block);
+    write_ambient(state, block);
+    if (state.on(occlusion_effect)) write_occlusion_weights(state, block);
     const auto number = [&state](const Effect& effect, std::string_view setting) {
         return static_cast<float>(state.settings.number(effect.name, setting));
     };
@@ -51,19 +67,20 @@ shared::FrameBlock frame_block(CharacterState& state) {
                   number(reflection_effect, "roughness"), number(reflection_effect, "intensity")};
     block.translucency = {number(translucency_effect, "strength"), number(translucency_effect, "drawn_in_mm"), 0, 0};
     if (state.on(parts_effect)) write_parts(state, block);
+    write_profile(state, block);
     block.counts.x = static_cast<int>(state.shader_lights.size());
     std::ranges::copy(state.shader_lights, block.lights);
     return block;
 }
 
 void bind_maps(CharacterState& state, std::uint32_t bits) {
-    if ((bits & (shade_skin_reflection | shade_translucency)) != 0) {
+    if ((bits & shade_skin_reflection) != 0) {
         const SkinTables& tables = skin_tables(state);
         glBindTextureUnit(BLUSH_BECKMANN_UNIT, tables.beckmann.name());
         glBindTextureUnit(BLUSH_SPECULAR_ALBEDO_UNIT, tables.specular_albedo.name());
-        glBindTextureUnit(BLUSH_TRANSMITTANCE_UNIT, tables.transmittance.name());
     }
     if ((bits & shade_environment) != 0) bind_environment(state);
+    if ((bits & shade_ambient_occlusion) != 0) bind_occlusion(state);
     bind_appearance(state, (bits & shade_wrinkles) != 0, (bits & shade_blood) != 0);
     if ((bits & shade_shadows) != 0) {
         const auto& maps = state.own<ShadowMaps>();

@@ -28,7 +28,7 @@ double linear_from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((
 CoverageFrames::CoverageFrames(const Device& device, std::vector<CoverageShape> shapes, float radiance)
     : device_(device), shapes_(std::move(shapes)), radiance_(radiance) {
     constexpr double edge = coverage_side_pixels;
-    shapes_.push_back({"full", {{{0, 0}, {edge, 0}, {edge, edge}, {0, edge}}}});
+    shapes_.push_back({"full", {{{0, 0}, {edge, 0}, {edge, edge}, {0, edge}}}, 0});
     constexpr auto side = static_cast<std::uint32_t>(coverage_side_pixels);
     for (const Output output : {Output::display_srgb, Output::linear_hdr}) {
         offscreens_.push_back(must(Offscreen::create(device, side, side, output)));

@@ -3,16 +3,24 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <random>
 
 #include "rig/antialias/blend.h"
 #include "rig/antialias/edges.h"
 #include "rig/antialias/weights.h"
 #include "runtime/antialias/antialias_passes.h"
+#include "runtime/face_file.h"
 #include "runtime/gl/state_guard.h"
+#include "runtime/import_head.h"
 #include "tests/antialias_pictures.h"
 #include "tests/gl_fixture.h"
+#include "tests/shared_data.h"
 
 namespace blush {
 namespace {
@@ -255,6 +263,16 @@ TEST_F(AntialiasPassesTest, EqualTheirTwinsOnFloatsOfEveryKind) {
     }
 }
 
+Pixels pixels_of(const Image& image) {
+    Pixels picture(static_cast<int>(image.width), static_cast<int>(image.height));
+    for (std::size_t p = 0; p < picture.cells.size(); ++p) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            picture.cells[p][static_cast<glm::length_t>(c)] = static_cast<float>(image.bytes[4 * p + c]) / 255.0F;
+        }
+    }
+    return picture;
+}
+
 TEST_F(AntialiasPassesTest, EqualTheirTwinsOnRenderedFaces) {
     const gl::StateGuard guard;
     test::FaceOptions options;
@@ -263,19 +281,78 @@ TEST_F(AntialiasPassesTest, EqualTheirTwinsOnRenderedFaces) {
     const Offscreen offscreen = make_offscreen(96, 96);
     for (const float weight : {0.0F, 1.0F}) {
         test::set_weights(character, {weight, 0, weight, 0});
-        const Image image = test::draw(character, offscreen);
-        Pixels picture(96, 96);
-        for (std::size_t p = 0; p < picture.cells.size(); ++p) {
-            for (std::size_t c = 0; c < 4; ++c) {
-                picture.cells[p][static_cast<glm::length_t>(c)] = static_cast<float>(image.bytes[4 * p + c]) / 255.0F;
-            }
-        }
+        const Pixels picture = pixels_of(test::draw(character, offscreen));
         Steps steps(picture, GL_RGBA8);
         SmaaSettings settings = smaa_preset(SmaaPreset::ultra);
         settings.edges.threshold = 0.02F;  // the little face is lit softly
         expect_smaa(*passes_, steps, settings, SubsampleSlices(0), {});
         expect_mlaa(*passes_, steps, {});
     }
+}
+
+/// A real head from the shared data, or nothing where it is absent.
+std::optional<Face> real_head(const std::string& name) {
+    namespace fs = std::filesystem;
+    const fs::path folder =
+        fs::path(testing::TempDir()) / ("blush_real_head_" + std::to_string(std::random_device{}()));
+    fs::create_directories(folder);
+    const auto imported = [&](const Result<ImportedHead>& head) -> Result<Face> {
+        if (!head) return head.error();
+        const fs::path file = folder / "head.glb";
+        std::ofstream(file, std::ios::binary) << head->glb;
+        return load_face(file);
+    };
+    const auto found = test::shared_data("faces/" + name);
+    if (!found) return std::nullopt;
+    const auto load = [&]() -> Result<Face> {
+        if (found->extension() == ".glb") return load_face(*found);
+        if (fs::is_directory(*found)) return imported(import_makehuman(*found));
+        // The head at rest alone: it comes first in the archive.
+        const std::string command =
+            "tar -xJf '" + found->string() + "' -C '" + folder.string() + "' --occurrence=1 generic_neutral_mesh.obj";
+        if (std::system(command.c_str()) != 0) return Error{"tar failed"};
+        return imported(import_ict(folder));
+    };
+    Result<Face> face = load();
+    fs::remove_all(folder);
+    if (face) return *std::move(face);
+    ADD_FAILURE() << name << ": " << face.error().message;
+    return std::nullopt;
+}
+
+/// Each from the front, from the side and from below, on one sheet.
+TEST_F(AntialiasPassesTest, EqualTheirTwinsOnFramesOfRealHeads) {
+    BLUSH_SHARED_OR_SKIP(faces, "faces");
+    const Offscreen offscreen = make_offscreen(115, 120);
+    std::vector<NamedPicture> frames;
+    for (const char* name : {"lee-perry-smith/LeePerrySmith.glb", "facecap/facecap_plain.glb",
+                             "ict-facekit/ict_expr.tar.xz", "makehuman"}) {
+        std::optional<Face> face = real_head(name);
+        ASSERT_TRUE(face) << faces / name;
+        Character character = make_character(*std::move(face));
+        ASSERT_TRUE(character.set("antialiasing.mode", "none"));
+        for (const auto& [yaw, pitch] : {std::pair(0.0F, 0.0F), {0.9F, 0.1F}, {-0.4F, -0.5F}}) {
+            View view = test::framed_view(character, offscreen);
+            OrbitCamera camera = character.framing(1);
+            camera.yaw_radians = yaw;
+            camera.pitch_radians = pitch;
+            view.camera = camera.camera(1);
+            const Image image = test::draw(character, offscreen, view);
+            EXPECT_GT(test::colour_count(image), test::fewest_colours) << name;
+            frames.push_back({name, pixels_of(image)});
+        }
+    }
+    const gl::StateGuard guard;
+    const Pixels sheet = sheet_of(frames);
+    Steps steps(sheet, GL_RGBA8);
+    for (const SmaaPreset preset : {SmaaPreset::low, SmaaPreset::ultra}) {
+        expect_smaa(*passes_, steps, smaa_preset(preset), SubsampleSlices(0), {});
+    }
+    SmaaSettings by_color = smaa_preset(SmaaPreset::high);
+    by_color.edges.source = EdgeSource::color;
+    by_color.edges.threshold = 0.02F;  // wrinkles and lips too
+    expect_smaa(*passes_, steps, by_color, SubsampleSlices(1, 2, 3, 4), {});
+    expect_mlaa(*passes_, steps, {});
 }
 
 TEST_F(AntialiasPassesTest, APictureWithoutEdgesKeepsItsBits) {

@@ -44,6 +44,12 @@ protected:
                           static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
         return values;
     }
+    static std::vector<float> read_depth(GLuint name, std::uint32_t side) {
+        std::vector<float> values(std::size_t{side} * side);
+        glGetTextureImage(name, 0, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
+                          values.data());
+        return values;
+    }
     /// Of 255, beyond one step of 8 bits: means of rounded pictures round otherwise than one picture does.
     static double difference(const Image& a, const Image& b) {
         double sum = 0;
@@ -166,6 +172,23 @@ TEST_F(AntialiasingFrames, TheHdrResolveWeighsBrightSamplesLess) {
         ASSERT_LT(nearest, 0.002) << value << " is the resolve of no number of samples";
     }
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_GT(found[k], 0) << k << " of 4 samples never seen";
+}
+
+TEST_F(AntialiasingFrames, TheResolveIsWeighedForADisplayAndPlainForRadiance) {
+    const Face face = make_face({.side = 14, .targets = 0});
+    for (const auto& [output, expected] : {std::pair(Output::display_srgb, "hdr"), {Output::linear_hdr, "average"}}) {
+        const Offscreen offscreen = make_offscreen(40, 40, output);
+        const auto drawn = [&](const char* resolve) {
+            Character character = character_in("msaa4", face);
+            set(character, "multisampling.resolve", resolve);
+            return draw(character, offscreen);
+        };
+        const Image automatic = drawn("auto"), average = drawn("average"), hdr = drawn("hdr");
+        const Image& wanted = std::string_view(expected) == "hdr" ? hdr : average;
+        EXPECT_EQ(automatic.bytes, wanted.bytes);
+        EXPECT_EQ(automatic.floats, wanted.floats);
+        EXPECT_TRUE(average.bytes != hdr.bytes || average.floats != hdr.floats);
+    }
 }
 
 TEST_F(AntialiasingFrames, SupersamplingIsTheMeanOfItsPicturesInLinearLight) {
@@ -295,6 +318,35 @@ TEST_F(AntialiasingFrames, AFaceThatIsNotThereNeedsOneSampleInEveryMode) {
         EXPECT_EQ(image.bytes, background) << mode;
         EXPECT_EQ(character.state().sampling, Sampling{}) << mode;
     }
+}
+
+TEST_F(AntialiasingFrames, WhatCannotBeOnTheScreenNeedsOneSampleAndIsExact) {
+    const Face face = make_face({.side = 14, .targets = 1});
+    const Offscreen offscreen = make_offscreen(16, 16);
+    Character character = character_in("smaa_4x", face), forced = character_in("smaa_4x", face);
+    View view = framed_view(character, offscreen);
+    std::size_t seen = 0, away = 0;
+    // The dome's radius is 1, and half of the picture's width is a little more.
+    for (const float x : {0.0F, 1.0F, 1.9F, 2.0F, 2.1F, 2.2F, 2.3F, 2.4F, 2.6F, 2.8F, 3.0F, 16.0F}) {
+        for (Character* drawn : {&character, &forced}) drawn->pose().nodes[0].translation = {x, 0, 0};
+        view.cut = true;
+        view.force_effects = true;
+        const Image truth = draw(forced, offscreen, view);
+        view.force_effects = false;
+        const Image image = draw(character, offscreen, view);
+        if (character.state().facts.on_screen) {
+            ++seen;
+            continue;
+        }
+        ++away;
+        EXPECT_EQ(character.state().sampling, Sampling{});
+        EXPECT_EQ(forced.state().sampling.pictures, 2U);
+        EXPECT_EQ(effect(character.state().report, "antialiasing").reason,
+                  "no part of the face can be on the screen: the picture has no edges");
+        EXPECT_EQ(image.bytes, truth.bytes) << x;
+    }
+    EXPECT_GT(seen, 2U);
+    EXPECT_GT(away, 2U);
 }
 
 TEST_F(AntialiasingFrames, WithoutVelocitiesEveryFrameIsThatOfTheFilterAlone) {
@@ -486,9 +538,42 @@ TEST_F(Velocities, AJointedFaceMovesWithItsJoints) {
 
 // --- reprojection ----------------------------------------------------------------------------------------------------
 
-class Reprojection : public Velocities {};
+class Reprojection : public Velocities {
+protected:
+    /// What `rejection=surface` asks of a pixel: whether everything around its place in the last frame is what this
+    /// frame has around it, moving alike. As shaders/reproject.frag, in double precision.
+    struct Surfaces {
+        const std::vector<float>&velocities, &last_depth;
 
-/// Equations 10.6 and 10.7 in double precision, on what the frame itself kept.
+        bool seen_alike(int x, int y, double last_x, double last_y) const {
+            const auto cell = [](int px, int py) {
+                return static_cast<std::size_t>(std::clamp(py, 0, int{side} - 1)) * side +
+                       static_cast<std::size_t>(std::clamp(px, 0, int{side} - 1));
+            };
+            const auto velocity = [&](std::size_t p) {
+                return glm::dvec2(velocities[4 * p + 1], velocities[4 * p + 2]) * double{side};
+            };
+            const glm::dvec2 own = velocity(cell(x, y));
+            double lowest = 2, highest = -1;
+            for (int i = 0; i < 9; ++i) {
+                const std::size_t p = cell(x + i % 3 - 1, y + i / 3 - 1);
+                const glm::dvec2 apart = glm::abs(velocity(p) - own);
+                if (std::max(apart.x, apart.y) > 0.05 + 0.02 * glm::length(own)) continue;
+                lowest = std::min(lowest, static_cast<double>(velocities[4 * p + 3]));
+                highest = std::max(highest, static_cast<double>(velocities[4 * p + 3]));
+            }
+            const double tolerance = highest - lowest + 0.002 * highest + 1e-6;
+            for (int i = 0; i < 9; ++i) {
+                const std::size_t p = cell(static_cast<int>(last_x) + i % 3 - 1, static_cast<int>(last_y) + i / 3 - 1);
+                const double before_far = 1 - static_cast<double>(last_depth[p]);
+                if (before_far < lowest - tolerance || before_far > highest + tolerance) return false;
+            }
+            return true;
+        }
+    };
+};
+
+/// Equations 10.6 and 10.7, and the rejection, in double precision, on what the frame itself kept.
 TEST_F(Reprojection, EqualsTheFormulaWithinOneOf255) {
     const Face face = make_face({.side = 14, .targets = 2});
     const Offscreen offscreen = make_offscreen(side, side);
@@ -506,8 +591,11 @@ TEST_F(Reprojection, EqualsTheFormulaWithinOneOf255) {
                                  color = read_texture(now.color.name(), side, 4),
                                  last_color = read_texture(before.color.name(), side, 4),
                                  speeds = read_texture(now.speeds.name(), side, 1),
-                                 last_speeds = read_texture(before.speeds.name(), side, 1);
+                                 last_speeds = read_texture(before.speeds.name(), side, 1),
+                                 last_depth = read_depth(before.depth.name(), side);
+        const Surfaces surfaces{velocities, last_depth};
         double worst = 0, most_weight = 0, least_weight = 1;
+        std::size_t rejected = 0;
         for (int y = 0; y < int{side}; ++y) {
             for (int x = 0; x < int{side}; ++x) {
                 const auto p = static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
@@ -529,7 +617,9 @@ TEST_F(Reprojection, EqualsTheFormulaWithinOneOf255) {
                 };
                 const double last_speed = sampled([&](std::size_t q) { return static_cast<double>(last_speeds[q]); });
                 const double apart = std::abs(static_cast<double>(speeds[p]) - last_speed);
-                const double weight = on_screen ? 0.5 * std::max(0.0, 1 - 30 * std::sqrt(apart)) : 0;
+                const bool seen = on_screen && surfaces.seen_alike(x, y, px, py);
+                const double weight = seen ? 0.5 * std::max(0.0, 1 - 30 * std::sqrt(apart)) : 0;
+                rejected += seen ? 0U : 1U;
                 most_weight = std::max(most_weight, weight);
                 least_weight = std::min(least_weight, weight);
                 for (std::size_t c = 0; c < 3; ++c) {
@@ -547,50 +637,74 @@ TEST_F(Reprojection, EqualsTheFormulaWithinOneOf255) {
         EXPECT_LE(worst, 1.0);
         EXPECT_GT(most_weight, 0.45);
         EXPECT_LT(least_weight, 0.05);
+        EXPECT_GT(rejected, 20U);
+        EXPECT_LT(rejected, side * side / 4) << "a face that moves as one is rejected at its outline alone";
     }
 }
 
-/// A face before a dark wall moves to the side. Where it was, the wall must show, and not a ghost of the face.
-TEST_F(Reprojection, ADisocclusionLeavesNoGhost) {
-    const Face face = make_face({.side = 14, .targets = 1});
-    const Offscreen offscreen = make_offscreen(side, side);
-    for (const float pixels_a_frame : {1.0F, 4.0F, 12.0F}) {
-        for (const auto& [mode, falloff] : {std::pair("smaa_t2x", "30"), {"smaa_4x", "30"}, {"smaa_t2x", "0"}}) {
-            SCOPED_TRACE(std::string(mode) + ", " + std::to_string(pixels_a_frame) + " pixels a frame, falloff " +
-                         falloff);
-            Character character = character_in(mode, face);
-            set(character, "reprojection.falloff", falloff);
-            // The dome is two units wide and fills most of the picture.
-            const float step = pixels_a_frame * 2.0F / side;
-            for (int frame = 0; frame < 3; ++frame) {
-                const float x = step * static_cast<float>(frame);
-                draw(character, offscreen, stand(character, offscreen, {{0}, 0, {x, 0, 0}}));
-            }
-            const Image image = offscreen.read();
-            const LastFrame& last = character.state().own<LastFrame>();
-            const std::vector<float> alone = read_texture(last.images[last.phase].color.name(), side, 4),
-                                     before = read_texture(last.images[1 - last.phase].color.name(), side, 4);
-            double ghost = 0, left = 0;
-            for (std::size_t p = 0; p < alone.size() / 4; ++p) {
-                const std::size_t y = p / side, x = p % side;
-                const bool wall = std::equal(&alone[4 * p], &alone[4 * p] + 3, alone.begin());
-                if (!wall) continue;
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const double shown = image.bytes[4 * ((side - 1 - y) * side + x) + c] / 255.0,
-                                 own = static_cast<double>(alone[4 * p + c]),
-                                 other = static_cast<double>(before[4 * p + c]);
-                    ghost += (other - own) * (other - own);
-                    left += (shown - own) * (shown - own);
-                }
-            }
-            EXPECT_GT(ghost, 0.1) << "nothing was uncovered";
-            if (std::string(falloff) == "30") {
-                EXPECT_LE(left, 0.01 * ghost);
-            } else {
-                EXPECT_GT(left, 0.05 * ghost) << "without the weight there is a ghost, which the test must see";
+/// A face before a dark wall is moved to the side; where it was, the wall must show, and not a ghost of the face.
+class Ghosts : public Reprojection {
+protected:
+    struct Way {
+        const char* mode;
+        const char* falloff;
+        const char* rejection;
+        bool from_rest;  ///< the last frame was still; else this is the third frame of one motion
+    };
+    /// Share of the ghost's energy that is left: over pixels that are all wall, squares of what is shown beyond it to
+    /// squares of what the last frame has beyond it.
+    double left_of_ghost(const Way& way, float pixels_a_frame) {
+        Character character = character_in(way.mode, face_);
+        set(character, "reprojection.falloff", way.falloff);
+        set(character, "reprojection.rejection", way.rejection);
+        // The dome is two units wide and fills most of the picture.
+        const float step = pixels_a_frame * 2.0F / side;
+        for (const float x : {0.0F, way.from_rest ? 0.0F : step, way.from_rest ? step : 2 * step}) {
+            draw(character, offscreen_, stand(character, offscreen_, {{0}, 0, {x, 0, 0}}));
+        }
+        const Image image = offscreen_.read();
+        const LastFrame& last = character.state().own<LastFrame>();
+        const std::vector<float> alone = read_texture(last.images[last.phase].color.name(), side, 4),
+                                 before = read_texture(last.images[1 - last.phase].color.name(), side, 4);
+        double ghost = 0, left = 0;
+        for (std::size_t p = 0; p < alone.size() / 4; ++p) {
+            const std::size_t y = p / side, x = p % side;
+            const bool wall = std::equal(&alone[4 * p], &alone[4 * p] + 3, alone.begin());
+            if (!wall) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double shown = image.bytes[4 * ((side - 1 - y) * side + x) + c] / 255.0,
+                             own = static_cast<double>(alone[4 * p + c]),
+                             other = static_cast<double>(before[4 * p + c]);
+                ghost += (other - own) * (other - own);
+                left += (shown - own) * (shown - own);
             }
         }
+        EXPECT_GT(ghost, 0.005) << "nothing was uncovered";
+        return left / ghost;
     }
+
+    Face face_ = make_face({.side = 14, .targets = 1});
+    Offscreen offscreen_ = make_offscreen(side, side);
+};
+
+/// K = 30 of this picture of 56 pixels is K = 5 of one of 1920: with K = 0 nothing hangs on the picture's size.
+TEST_F(Ghosts, AreRejectedAtEverySpeedWithOrWithoutTheWeight) {
+    for (const float pixels_a_frame : {0.1F, 0.25F, 0.5F, 1.0F, 4.0F, 12.0F}) {
+        for (const Way& way : {Way{"smaa_t2x", "30", "surface", false}, Way{"smaa_t2x", "0", "surface", false},
+                               Way{"smaa_t2x", "0", "surface", true}, Way{"smaa_4x", "0", "surface", false}}) {
+            SCOPED_TRACE(std::string(way.mode) + ", " + std::to_string(pixels_a_frame) + " pixels a frame, falloff " +
+                         way.falloff + (way.from_rest ? ", from rest" : ""));
+            EXPECT_LE(left_of_ghost(way, pixels_a_frame), 0.01);
+        }
+    }
+}
+
+TEST_F(Ghosts, AreThereWithoutWeightOrRejection) {
+    EXPECT_GT(left_of_ghost({"smaa_t2x", "0", "none", false}, 4), 0.05);
+    // The weight looks at speeds, and what starts to move had none.
+    EXPECT_GT(left_of_ghost({"smaa_t2x", "30", "none", true}, 4), 0.05);
+    // 1920 pixels, half a pixel a frame.
+    EXPECT_GT(left_of_ghost({"smaa_t2x", "5", "none", false}, 0.5F), 0.05);
 }
 
 }  // namespace

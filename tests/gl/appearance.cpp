@@ -7,7 +7,10 @@
 #include <cstdio>
 
 #include "rig/colour_difference.h"
+#include "runtime/appearance_file.h"
 #include "runtime/appearance_probe.h"
+#include "runtime/gl/state_guard.h"
+#include "runtime/signed_texture.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -34,7 +37,7 @@ WrinkleSet waves(const Rig& rig, float steepest, float range) {
                                      steepest * std::cos(0.5F * static_cast<float>(i / side))};
     set.masks.assign(set.zones.size(), ScalarMap(8, 8));
     for (std::size_t z = 0; z < set.masks.size(); ++z)
-        for (std::uint32_t i = 0; i < 64; ++i) set.masks[z].values[i] = (i + z) % 8 == 0 ? 1.0F : 0.0F;
+        for (std::uint32_t i = 0; i < 64; ++i) set.masks[z].values[i] = (i + z) % set.masks.size() == 0 ? 1.0F : 0.0F;
     return set;
 }
 
@@ -150,6 +153,33 @@ TEST_F(Appearance, MoreBloodIsRedder) {
         ASSERT_NEAR(anger[i].g, 1, 2e-3) << "not skin";
 }
 
+// The paper has its base map in 3Dc too (8.3). Slopes up to 22 degrees, whole waves within a block of 4 x 4: no texel
+// is off by more than a fourteenth of their extent of 0.8 in either channel, 4.6 degrees.
+TEST_F(Appearance, BaseNormalsAreNearTheVectorsOfTheirImage) {
+    const gl::StateGuard guard;
+    const Image image = test::waffle_normal_map();
+    const BaseNormalError floats = base_normal_error(image, GL_RG16F), bytes = base_normal_error(image, GL_RG8_SNORM),
+                          compressed = base_normal_error(image);
+    std::printf("mean and worst, degrees: halves %.3f %.3f, two bytes %.3f %.3f, RGTC2 %.3f %.3f\n", floats.mean,
+                floats.worst, bytes.mean, bytes.worst, compressed.mean, compressed.worst);
+    EXPECT_LT(floats.worst, 0.05);
+    EXPECT_LT(bytes.worst, 0.35);  // half a step of 1 / 127 in both channels
+    EXPECT_LT(compressed.worst, 4.6);
+    EXPECT_GT(compressed.worst, bytes.worst) << "a compression that loses nothing would be none";
+}
+
+TEST_F(Appearance, SteepBaseMapsGetAWiderRange) {
+    NormalMap flat(100, 100, glm::vec3(0, 0, 1));
+    EXPECT_EQ(base_normal_range(flat), 1);
+    for (std::size_t i = 0; i < 9; ++i) flat.values[i] = {1, 0, 0.1F};
+    EXPECT_EQ(base_normal_range(flat), 1) << "not for less than a thousandth of the texels";
+    for (std::size_t i = 0; i < 100; ++i) flat.values[i] = {2, 0, 1};
+    EXPECT_FLOAT_EQ(base_normal_range(flat), 2);
+    for (std::size_t i = 0; i < 100; ++i) flat.values[i] = {1, 0, -1};
+    EXPECT_EQ(base_normal_range(flat), 4) << "no further";
+    EXPECT_EQ(base_normal_range(NormalMap()), 1);
+}
+
 class AppearanceFrames : public test::GlTest {
 protected:
     Character character() {
@@ -237,6 +267,96 @@ TEST_F(AppearanceFrames, LeavingWrinklesOutOfASmallFaceIsWithinItsBound) {
         EXPECT_LE(worst, report.bound);
     }
     EXPECT_TRUE(left_out);
+}
+
+// Both 127 and 128 are within half a step of flat.
+TEST_F(AppearanceFrames, AFlatBaseMapGivesTheGeometricNormalToTheBit) {
+    const Offscreen offscreen = make_offscreen(64, 64);
+    Character bare = make_character(expressive_face());
+    const Image without = test::draw(bare, offscreen);
+    for (const std::uint8_t flat : {std::uint8_t{127}, std::uint8_t{128}}) {
+        Face face = expressive_face();
+        face.images.push_back({"flat", 4, 4, 3, {}, {}});
+        for (int i = 0; i < 16; ++i) face.images[0].bytes.insert(face.images[0].bytes.end(), {flat, flat, 255});
+        face.materials[0].normal.image = 0;
+        Character mapped = make_character(std::move(face));
+        EXPECT_EQ(test::draw(mapped, offscreen).bytes, without.bytes);
+    }
+    Face face = expressive_face();
+    face.images.push_back(test::waffle_normal_map());
+    face.materials[0].normal.image = 0;
+    Character waffle = make_character(std::move(face));
+    EXPECT_NE(test::draw(waffle, offscreen).bytes, without.bytes);
+}
+
+/// CIEDE2000 of the pixel that differs most.
+double worst_difference(const Image& a, const Image& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i + 3 < a.bytes.size(); i += 4) {
+        const auto colour = [&](const Image& image) {
+            const auto linear = [&](std::size_t c) { return linear_from_srgb(image.bytes[i + c] / 255.0); };
+            return glm::dvec3(linear(0), linear(1), linear(2));
+        };
+        worst = std::max(worst, ciede2000_of_srgb_linear(colour(a), colour(b)));
+    }
+    return worst;
+}
+
+// Base colour from the two maps and the residual, against the texture that they were made from. At texels they agree
+// to the rounding of 8 bits; between them, where skin ends within one texel, the product of filtered maps is not the
+// filtered product.
+TEST_F(AppearanceFrames, ColourOfPigmentsIsThatOfTheTexture) {
+    Face face = expressive_face();
+    face.images.push_back({"skin", 64, 64, 3, {}, {}});
+    for (std::uint32_t i = 0; i < 64 * 64; ++i) {
+        const auto shade = static_cast<std::uint8_t>(i % 64 / 4 + i / 64 / 4);
+        const std::uint8_t red = static_cast<std::uint8_t>(200 + shade), green = static_cast<std::uint8_t>(150 - shade),
+                           blue = i / 64 < 8 ? std::uint8_t{250} : std::uint8_t{125};  // a band that is no skin
+        face.images[0].bytes.insert(face.images[0].bytes.end(), {red, green, blue});
+    }
+    face.materials[0].base_color_srgb.image = 0;
+    face.materials[0].base_color_linear = glm::vec4(1);
+    const Result<ColourMap> albedo = colour_map_of(face.images[0], "skin");
+    ASSERT_TRUE(albedo);
+    SkinPigments made;
+    made.maps = appearance_from_albedo(*albedo, SkinColourTable());
+    Character character = make_character(std::move(face));
+    character.set_appearance({std::nullopt, made});
+    const Offscreen offscreen = make_offscreen(64, 64);
+    const Image texture = test::draw(character, offscreen);
+    ASSERT_TRUE(character.set("blood.colour", "pigments"));
+    const Image pigments = test::draw(character, offscreen);
+    EXPECT_TRUE(report_of(character.state().report, "blood").on);
+    EXPECT_LT(worst_difference(pigments, texture), 2);
+
+    // What is painted shows, in the frame where the colour comes from the maps alone: a mole, and lipstick.
+    const auto painted = [&](auto paint) {
+        SkinPigments other = made;
+        for (std::uint32_t y = 28; y < 36; ++y)
+            for (std::uint32_t x = 28; x < 36; ++x) paint(other.maps, y * 64 + x);
+        character.set_appearance({std::nullopt, other});
+        return test::draw(character, offscreen);
+    };
+    const auto mole = [](AppearanceMaps& maps, std::size_t i) { maps.melanin.values[i] = 0.3F; };
+    const auto lipstick = [](AppearanceMaps& maps, std::size_t i) {
+        maps.residual.values[i] *= glm::vec3(1, 0.3F, 0.4F);
+    };
+    EXPECT_GT(worst_difference(painted(mole), pigments), 10);
+    EXPECT_GT(worst_difference(painted(lipstick), pigments), 10);
+    ASSERT_TRUE(character.set("blood.colour", "texture"));
+    EXPECT_EQ(painted(lipstick).bytes, texture.bytes);
+}
+
+TEST_F(AppearanceFrames, TheTableHasTheSizeThatIsAskedFor) {
+    Character made = character();
+    const Offscreen offscreen = make_offscreen(64, 64);
+    made.set(*made.control("anger"), 1);
+    const Image fine = test::draw(made, offscreen);
+    ASSERT_TRUE(made.set("blood.table_nodes", "128"));
+    EXPECT_LT(worst_difference(test::draw(made, offscreen), fine), 1);
+    ASSERT_TRUE(made.set("blood.table_nodes", "2"));
+    EXPECT_GT(worst_difference(test::draw(made, offscreen), fine), 2) << "two nodes a side are no model";
+    EXPECT_FALSE(made.set("blood.table_nodes", "1"));
 }
 
 TEST_F(AppearanceFrames, BloodIsBlendedOnceForAPose) {

@@ -291,7 +291,7 @@ protected:
 
 TEST_F(DepthOfFieldFrames, IsItsTwinWithEitherPlaneInFocus) {
     const Picture sharp = draw("0", "0");
-    for (const double focus_mm : {1000.0, 600.0, 750.0}) {
+    for (const double focus_mm : {1000.0, 600.0, 750.0, 480.0}) {
         const Picture blurred = draw("1.4", std::to_string(focus_mm).c_str());
         const double focal_length_mm = 12 / std::tan(0.5 * static_cast<double>(field_radians));
         const BlurRadius blur = blur_radius({1.4, focal_length_mm, focus_mm, 24}, side, 0.1 * side);
@@ -310,7 +310,7 @@ TEST_F(DepthOfFieldFrames, IsItsTwinWithEitherPlaneInFocus) {
         EXPECT_GT(worst_difference(blurred, sharp), 0.2);
         // The plane in focus keeps its bits where nothing blurred stands in front of it.
         const bool strip_sharp = focus_mm == 600.0;
-        for (std::uint32_t x = 0; x < side && focus_mm != 750.0; ++x) {
+        for (std::uint32_t x = 0; x < side && (strip_sharp || focus_mm == 1000.0); ++x) {
             const bool far_from_strip = x < 12 || x >= side - 12;
             if (!(strip_sharp ? on_strip(x) : far_from_strip)) continue;
             EXPECT_EQ(blurred.at(x, 31), sharp.at(x, 31)) << x;

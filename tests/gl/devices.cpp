@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "runtime/gl/program.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -146,6 +147,52 @@ TEST_F(Devices, AssigningOverAnOffscreenDeletesItsObjectsInTheirOwnContext) {
     EXPECT_EQ(test::draw(character, *on_second).bytes, expected.bytes);
     EXPECT_EQ(test::draw(character, on_first).bytes, expected.bytes);
     test::expect_no_debug_messages(other);
+}
+
+/// In every mode of antialiasing, whose passes are the most programs.
+TEST_F(Devices, ASecondCharacterCompilesNothing) {
+    const Face face = test::make_face({.targets = 1, .joints = true});
+    const auto draw_all = [&] {
+        Character character = make_character(face);
+        for (const char* mode : {"none", "msaa4", "mlaa", "smaa_1x", "smaa_4x"}) {
+            ASSERT_TRUE(character.set("antialiasing.mode", mode));
+            for (const float weight : {0.0F, 1.0F}) {
+                test::set_weights(character, {weight});
+                picture_of(device_, character);
+            }
+        }
+    };
+    draw_all();
+    const std::size_t compiled = gl::ProgramCache::current()->size();
+    EXPECT_GT(compiled, 20U);
+    draw_all();
+    EXPECT_EQ(gl::ProgramCache::current()->size(), compiled);
+}
+
+/// Each has a context of its own, and programs are not shared between contexts.
+TEST_F(Devices, EachKeepsItsOwnPrograms) {
+    Character first = make_character(test::make_face({.targets = 1}));
+    const std::size_t of_first = gl::ProgramCache::current()->size();
+    const Device other = make_device();
+    EXPECT_EQ(gl::ProgramCache::current()->size(), 0U);
+    Character second = make_character(other, test::make_face({.targets = 1}));
+    EXPECT_EQ(gl::ProgramCache::current()->size(), of_first);
+    EXPECT_EQ(picture_of(device_, first).bytes, picture_of(other, second).bytes);
+}
+
+/// The host's context outlives the device: nothing is left in it.
+TEST(AdoptCurrent, ADeviceTakesItsProgramsWithIt) {
+    const HostContext host;
+    {
+        Result<Device> device = Device::adopt_current();
+        ASSERT_TRUE(device);
+        const Result<gl::Program> program = gl::make_program({"screen.vert", "tone.frag"});
+        ASSERT_TRUE(program);
+        EXPECT_TRUE(glIsProgram(program->name()));
+    }
+    for (GLuint name = 1; name < 20; ++name) EXPECT_FALSE(glIsProgram(name));
+    EXPECT_EQ(gl::ProgramCache::current(), nullptr);
+    EXPECT_EQ(gl::make_program({"screen.vert", "tone.frag"}).error().message, "no device is current on this thread");
 }
 
 }  // namespace

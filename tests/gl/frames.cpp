@@ -233,6 +233,7 @@ double display_from_radiance(double radiance, double exposure) {
 
 TEST_F(Frames, DisplayOutputIsTheCurveOfTheLinearOutput) {
     Character character = make_character(make_face({.targets = 1}));
+    ASSERT_TRUE(character.set("multisampling.resolve", "average"));  // else each output has its own
     const Offscreen display = make_offscreen(48, 40), linear = make_offscreen(48, 40, Output::linear_hdr);
     for (const float exposure : {0.25F, 1.0F, 6.0F}) {
         View display_view = framed_view(character, display), linear_view = framed_view(character, linear);

@@ -36,6 +36,7 @@ SkinImage striped() {
             image.light.emplace_back(half(matte * stripe), half(matte * 0.7 * stripe), half(matte * 0.5 * stripe),
                                      matte);
             image.depth_mm.push_back(static_cast<double>(static_cast<float>(matte * depth)));
+            image.strength.push_back(x > 30 ? 0.5 * matte : matte);
         }
     }
     return image;
@@ -60,7 +61,8 @@ protected:
         std::vector<float> depth;
         for (std::size_t p = 0; p < image.light.size(); ++p) {
             light.emplace_back(image.light[p]);
-            albedo.emplace_back(glm::vec3(static_cast<float>(image.light[p].a)), 1.0F);
+            albedo.emplace_back(glm::vec3(static_cast<float>(image.light[p].a)),
+                                static_cast<float>(image.strength.empty() ? image.light[p].a : image.strength[p]));
             depth.push_back(static_cast<float>(image.depth_mm[p]));
         }
         const gl::Texture light_texture = texture(GL_RGBA16F), albedo_texture = texture(GL_RGBA16F),
@@ -259,7 +261,7 @@ TEST_F(Scattering, LeftOutFarAwayItChangesThePictureWithinItsBound) {
     const Offscreen offscreen = make_offscreen(48, 48, Output::linear_hdr);
     View view = test::framed_view(character, offscreen);
     OrbitCamera camera = character.framing(1);
-    camera.distance *= 1.5F;
+    camera.distance *= 3.8F;  // eight millimetres of reach within half a pixel
     view.camera = camera.camera(1);
     const Image without = test::draw(character, offscreen, view);
     const auto& effects = character.state().report.effects;
@@ -277,6 +279,73 @@ TEST_F(Scattering, LeftOutFarAwayItChangesThePictureWithinItsBound) {
     }
     EXPECT_GT(worst, 0.0F);
     EXPECT_LE(static_cast<double>(worst / brightest), report.bound);
+}
+
+TEST_F(Scattering, OnlyPixelsOfSkinAreWorkedOn) {
+    const SkinImage image = striped();
+    std::size_t skin = 0;
+    for (const glm::dvec4& light : image.light) skin += light.a > 0 ? 1U : 0U;
+    const std::vector<KernelTap> taps = preintegrated_kernel(skin_six_gaussians(), 1, 17);
+    GLuint written = 0;
+    scattered(image, close_up, 10,
+              [&](ScatterPasses& passes, const ScatterInput& input, const ScatterScratch& scratch, GLuint scene) {
+                  GLuint query = 0;
+                  glGenQueries(1, &query);
+                  glBeginQuery(GL_SAMPLES_PASSED, query);
+                  passes.separable(input, taps, scratch, scene);
+                  glEndQuery(GL_SAMPLES_PASSED);
+                  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &written);
+                  glDeleteQueries(1, &query);
+              });
+    EXPECT_EQ(written, 2 * skin);
+    EXPECT_LT(skin, image.light.size());
+}
+
+/// A dome of skin under a hard light, its base colour's opacity as given.
+class StrengthMap : public test::GlTest {
+protected:
+    Image drawn(std::uint8_t alpha, bool by_alpha, const char* method) const {
+        Face face = test::make_face({.targets = 0});
+        Image image;
+        image.width = image.height = 1;
+        image.channels = 4;
+        image.bytes = {255, 255, 255, alpha};
+        face.images.push_back(image);
+        face.materials[0].base_color_srgb.image = 0;
+        face.materials[0].scatter_by_alpha = by_alpha;
+        Character character = make_character(face);
+        EXPECT_TRUE(character.set("scattering.method", method));
+        EXPECT_TRUE(character.set("scattering.millimetres_a_unit", "20"));  // some pixels a millimetre
+        const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
+        View view = test::framed_view(character, offscreen);
+        view.samples = 1;
+        Lighting lighting;
+        LightSource light;
+        light.direction_world = {-1, -0.1F, -0.2F};
+        lighting.lights = {light};
+        view.lighting = &lighting;
+        return test::draw(character, offscreen, view);
+    }
+    static double difference(const Image& a, const Image& b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < a.floats.size(); ++i)
+            sum += std::abs(static_cast<double>(a.floats[i]) - static_cast<double>(b.floats[i]));
+        return sum;
+    }
+};
+
+TEST_F(StrengthMap, SaysHowFarLightScatters) {
+    for (const char* method : {"separable", "gaussians6", "jittered"}) {
+        const Image off = drawn(255, true, "off"), full = drawn(255, true, method), none = drawn(0, true, method),
+                    half_way = drawn(128, true, method), ignored = drawn(0, false, method);
+        EXPECT_EQ(full.floats, ignored.floats) << method;  // without the material's word, opacity means nothing
+        const double all = difference(full, off);
+        EXPECT_GT(all, 1.0) << method;
+        // With nothing scattered only the half floats between the passes differ.
+        EXPECT_LT(difference(none, off), 0.2 * all) << method;
+        EXPECT_GT(difference(half_way, off), 0.2 * all) << method;
+        EXPECT_LT(difference(half_way, off), 0.9 * all) << method;
+    }
 }
 
 }  // namespace

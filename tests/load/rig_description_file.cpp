@@ -43,7 +43,7 @@ TEST(RigFile, TakesThePlaceOfWhatItMentionsAndLeavesTheRest) {
         "in_betweens": [],
         "correctives": [{"target": "fix", "drivers": ["jawOpen", "AU12"], "rule": "minimum", "weight": 0.5}],
         "limits": {"jawOpen": {"high": 0.75, "holds_own": true}},
-        "wrinkles": {"weights": {"Pride": [0, 0, 0, 0, 0, 0, 0, 0.5], "joy": [0, 0, 0, 0, 0, 0, 0, 1]}},
+        "wrinkles": {"weights": {"Pride": [0, 0, 0, 0, 0, 0, 0, 0.5, 0, 0, 0, 0], "joy": [0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0]}},
         "hemoglobin": {"maps": ["sunburn"], "weights": {"sunburn": {"maps": {"sunburn": 1}, "factor": 1.5}}}
     })",
         face);
@@ -126,10 +126,10 @@ TEST(RigFile, EveryFaultHasItsSentence) {
          "limits.jawOpen.holds_own: it must be true or false, not number"},
         {rig(R"("limits": {"jawOpen": {}, "JawOpen": {}})"), "limits.JawOpen: it is there twice"},
         {rig(R"("wrinkles": {"weights": {"joy": [1]}})"),
-         "wrinkles.weights.joy: it must have one weight for each of the 8 zones, not 1"},
-        {rig(R"("wrinkles": {"weights": {"joy+": [1, 1, 1, 1, 1, 1, 1, 1]}})"),
+         "wrinkles.weights.joy: it must have one weight for each of the 12 zones, not 1"},
+        {rig(R"("wrinkles": {"weights": {"joy+": [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]}})"),
          "wrinkles.weights.joy+: there is no control ''"},
-        {rig(R"("wrinkles": {"weights": {"joy+fear": [1, 1, 1, 1, 1, 1, 1, 1], "Joy+fear": []}})"),
+        {rig(R"("wrinkles": {"weights": {"joy+fear": [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1], "Joy+fear": []}})"),
          "wrinkles.weights.Joy+fear: it is there twice"},
         {rig(R"("hemoglobin": {"weights": {"joy": {"maps": {}}, "Joy": {"maps": {}}}})"),
          "hemoglobin.weights.Joy: it is there twice"},
@@ -150,7 +150,7 @@ TEST(RigFile, ThousandsOfEntriesTakeNoLongTime) {
         const std::string name = "e" + std::to_string(i), comma = i == 0 ? "" : ",";
         emotions += comma + "\"" + name + "\": {\"drives\": {\"AU6\": 1}}";
         limits += comma + "\"" + name + "\": {}";
-        wrinkles += comma + "\"" + name + "\": [0, 0, 0, 0, 0, 0, 0, 1]";
+        wrinkles += comma + "\"" + name + "\": [0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0]";
         hemoglobin += comma + "\"" + name + "\": {\"maps\": {\"joy\": 1}}";
     }
     EXPECT_EQ(refusal(R"({"blush_rig": 1, "emotions": {)" + emotions + R"(}, "limits": {)" + limits +

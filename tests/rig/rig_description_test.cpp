@@ -194,7 +194,7 @@ TEST(Check, EveryFaultHasItsSentence) {
               "drivers: 'jawOpen' drives itself ('jawOpen' > 'jawOpen')");
 
     EXPECT_EQ(refusal([](RigDescription& d) { d.wrinkles[0].weights.pop_back(); }),
-              "wrinkles.weights.joy: it must have one weight for each of the 8 zones, not 7");
+              "wrinkles.weights.joy: it must have one weight for each of the 12 zones, not 11");
     EXPECT_EQ(refusal([&](RigDescription& d) { d.wrinkles[0].weights[3] = nan; }),
               "wrinkles.weights.joy[3]: it must be a number from -100 to 100");
     EXPECT_EQ(refusal([](RigDescription& d) { d.wrinkles.push_back(d.wrinkles[1]); }),

@@ -190,22 +190,24 @@ TEST(RigLaws, WrinklesAndBloodStayInRange) {
     }
 }
 
+// The first eight zones as printed, but for joy, whose weights on the forehead belong to the corners of the eyes.
 TEST(RigLaws, EachEmotionHasItsRowOfTable81) {
     PosedRig posed(test::arkit_face());
     posed.with({{"joy", 1}});
-    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(1, 1, 0.2F, 0.2F, 0, 0, 0, 0));
+    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 0.9F, 0.9F));
     posed.with({{"surprise", 1}});
-    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0.8F, 0.8F, 0.8F, 0.8F, 0, 0, 0, 0));
+    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0.8F, 0.8F, 0.8F, 0.8F, 0, 0, 0, 0, 0, 0, 0, 0));
     posed.with({{"fear", 1}});
-    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0.2F, 0.2F, 0.75F, 0.75F, 0.3F, 0.3F, 0, 0.6F));
+    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0.2F, 0.2F, 0.75F, 0.75F, 0.3F, 0.3F, 0, 0.6F, 0, 0, 0.2F, 0.2F));
     posed.with({{"anger", 1}});
-    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0, 0, 0, 0, 0.8F, 0.8F, 1, 0)) << "negative weights clamp to none";
+    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0, 0, 0, 0, 0.8F, 0.8F, 1, 0, 0, 0, 0.25F, 0.25F))
+        << "negative weights clamp to none";
     posed.with({{"disgust", 1}});
-    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0, 0, 0, 0, 1, 1, 1, 0.5F));
+    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0, 0, 0, 0, 1, 1, 1, 0.5F, 0.3F, 0.3F, 0.8F, 0.8F));
     posed.with({{"sadness", 1}});
-    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0.2F, 0.2F, 0.75F, 0.75F, 0, 0, 0.1F, 1));
-    posed.with({{"joy", 1}, {"anger", 1}});
-    EXPECT_FLOAT_EQ(posed.zone("foreheadOuterLeft"), 0.4F) << "negative weights take away";
+    EXPECT_THAT(posed.pose.wrinkles, ElementsAre(0.2F, 0.2F, 0.75F, 0.75F, 0, 0, 0.1F, 1, 0, 0, 0.3F, 0.3F));
+    posed.with({{"surprise", 1}, {"disgust", 1}});
+    EXPECT_FLOAT_EQ(posed.zone("foreheadInnerLeft"), 0.7F) << "negative weights take away";
     posed.with({{"anger", 1}, {"disgust", 1}});
     EXPECT_EQ(posed.zone("glabella"), 1) << "the sum is clamped";
 }

@@ -94,6 +94,40 @@ TEST(DiffusionProfile, DipoleOfMarbleIsWideAndPositive) {
                 "marble");
 }
 
+TEST(DiffusionProfile, GaussiansOfMeasuredMaterialsSpreadAsTheirDipoles) {
+    for (const ScatteringMaterial& material : measured_materials()) {
+        const std::vector<GaussianTerm> terms = gaussians_of(material);
+        ASSERT_LE(terms.size(), most_gaussian_terms);
+        glm::dvec3 sum(0);
+        for (std::size_t g = 0; g < terms.size(); ++g) {
+            sum += terms[g].weight;
+            if (g > 0) {
+                EXPECT_GT(terms[g].variance_mm2, terms[g - 1].variance_mm2);
+            }
+        }
+        expect_near(sum, glm::dvec3(1), 1e-12, "sum");
+        // Light within a distance, of the dipole by fine steps to half a metre and
+        // of the Gaussians in closed form.
+        const auto within = [&](double to) {
+            glm::dvec3 light(0);
+            constexpr int steps = 6000;
+            const double low = std::log(1e-5), step = (std::log(to) - low) / steps;
+            for (int i = 0; i < steps; ++i) {
+                const double r = std::exp(low + (i + 0.5) * step);
+                light += dipole_at(material, r) * (2 * pi * r * r * step);
+            }
+            return light;
+        };
+        const glm::dvec3 all = within(500);
+        for (const double r : {0.1, 0.3, 1.0, 3.0, 10.0, 30.0}) {
+            glm::dvec3 gaussians(0);
+            for (const GaussianTerm& term : terms)
+                gaussians += term.weight * (1 - std::exp(-r * r / (2 * term.variance_mm2)));
+            expect_near(gaussians, within(r) / all, 0.03, std::string(material.name).c_str());
+        }
+    }
+}
+
 TEST(SeparableKernel, WeightsSumToOneAndThinOutFromTheCentre) {
     for (const std::uint32_t count : {9U, 17U, 25U, 33U}) {
         const std::vector<KernelTap> taps = separable_kernel(skin_kernel_shape(), count);
@@ -158,6 +192,25 @@ SkinImage plane(std::uint32_t width, std::uint32_t height) {
     image.light.assign(std::size_t{width} * height, glm::dvec4(0.625, 0.375, 0.1875, 1));
     image.depth_mm.assign(image.light.size(), 500);
     return image;
+}
+
+TEST(ScatterImage, StrengthIsAFactorOnDistance) {
+    SkinImage image = plane(48, 8);
+    for (std::size_t p = 0; p < image.light.size(); ++p) {
+        if (p % 48 < 24) image.light[p] = {0, 0, 0, 1};
+    }
+    const std::vector<KernelTap> taps = preintegrated_kernel(skin_six_gaussians(), 1, 17);
+    const std::vector<KernelTap> narrow = preintegrated_kernel(skin_six_gaussians(), 0.5, 17);
+    const ScatterProjection projection{glm::dvec2(4), 0};
+    const auto expected = scatter_separable(image, narrow, projection, 0);
+    image.strength.assign(image.light.size(), 0.5);
+    const auto half_way = scatter_separable(image, taps, projection, 0);
+    image.strength.assign(image.light.size(), 0.0);
+    const auto none = scatter_separable(image, taps, projection, 0);
+    for (std::size_t p = 0; p < image.light.size(); ++p) {
+        expect_near(half_way[p], expected[p], 1e-12, "half");
+        expect_near(none[p], glm::dvec3(image.light[p]), 1e-12, "none");
+    }
 }
 
 TEST(ScatterImage, ConstantLightStaysToTheBit) {

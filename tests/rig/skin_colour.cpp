@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "rig/colour_difference.h"
 #include "rig/skin_colour_table.h"
@@ -121,6 +122,69 @@ TEST(SkinColour, BloodIsRedderThanNoneAndTakesGreen) {
             EXPECT_GE(redness(rgb), bloodless) << m << " " << h;
             EXPECT_LT(rgb.g, green);
             green = rgb.g;
+        }
+    }
+}
+
+// Patches 1 and 2 of the ColorChecker, which were made to have the reflectances of dark and light human skin (C.
+// McCamy, H. Marcus, J. Davidson, "A Color-Rendition Chart", J. Appl. Photogr. Eng. 2(3), 1976), from 380 to 720 nm in
+// steps of 10: the mean of 30 charts at 45/0 degrees (D. Pascale, BabelColor, "The ColorChecker pages").
+constexpr std::array<double, 35> dark_patch = {0.055, 0.058, 0.061, 0.062, 0.062, 0.062, 0.062, 0.062, 0.062,
+                                               0.062, 0.062, 0.063, 0.065, 0.070, 0.076, 0.079, 0.081, 0.084,
+                                               0.091, 0.103, 0.119, 0.134, 0.143, 0.147, 0.151, 0.158, 0.168,
+                                               0.179, 0.188, 0.190, 0.186, 0.181, 0.182, 0.187, 0.196};
+constexpr std::array<double, 35> light_patch = {0.117, 0.143, 0.175, 0.191, 0.196, 0.199, 0.204, 0.213, 0.228,
+                                                0.251, 0.280, 0.309, 0.329, 0.333, 0.315, 0.286, 0.273, 0.276,
+                                                0.277, 0.289, 0.339, 0.420, 0.488, 0.525, 0.546, 0.562, 0.578,
+                                                0.595, 0.612, 0.625, 0.638, 0.656, 0.678, 0.700, 0.717};
+
+struct Fit {
+    SkinChromophores chromophores;
+    double rms = 1e9, worst = 0, ciede2000 = 0;
+};
+/// The skin of the model nearest to a patch, over all wavelengths.
+Fit nearest_skin(const std::array<double, 35>& patch) {
+    Fit best;
+    for (int m = 0; m <= 60; ++m) {
+        for (int h = 0; h <= 40; ++h) {
+            const double u = m / 60.0, v = h / 60.0;
+            const auto reflectance =
+                skin_reflectance(skin(u * u * u * largest_melanin, v * v * v * largest_hemoglobin));
+            double sum = 0, worst = 0;
+            for (std::size_t i = 0; i < patch.size(); ++i) {
+                const double off = std::abs(reflectance[2 * i] - patch[i]);
+                sum += off * off / static_cast<double>(patch.size());
+                worst = std::max(worst, off);
+            }
+            if (std::sqrt(sum) >= best.rms) continue;
+            best = {skin(u * u * u * largest_melanin, v * v * v * largest_hemoglobin), std::sqrt(sum), worst, 0};
+        }
+    }
+    std::array<double, spectral_samples> of_patch{};
+    for (std::size_t i = 0; i < spectral_samples; ++i) {
+        const std::size_t below = i / 2, above = std::min(below + i % 2, patch.size() - 1);
+        of_patch[i] = (patch[below] + patch[above]) / 2;
+    }
+    best.ciede2000 =
+        ciede2000_of_srgb_linear(srgb_linear_from_reflectance(of_patch), skin_colour_linear(best.chromophores));
+    return best;
+}
+
+TEST(SkinColour, HasTheReflectancesOfTheColorCheckersSkins) {
+    for (const auto* patch : {&dark_patch, &light_patch}) {
+        const Fit fit = nearest_skin(*patch);
+        std::printf("%s skin: melanin %.4f, blood %.4f; off by %.4f RMS, %.4f at most; CIEDE2000 %.1f\n",
+                    patch == &dark_patch ? "dark" : "light", fit.chromophores.melanin, fit.chromophores.hemoglobin,
+                    fit.rms, fit.worst, fit.ciede2000);
+        const bool dark = patch == &dark_patch;
+        // Both are paints, not skin: tolerances are just above what was found.
+        EXPECT_LT(fit.rms, dark ? 0.022 : 0.07);
+        EXPECT_LT(fit.ciede2000, dark ? 7.6 : 5.2);
+        EXPECT_GT(fit.chromophores.melanin, dark ? 0.1 : 0.002);
+        EXPECT_LT(fit.chromophores.melanin, dark ? 0.43 : 0.063) << "beyond the ranges of Jacques 1998";
+        if (!dark) {
+            EXPECT_GT(fit.chromophores.hemoglobin, 0.005);
+            EXPECT_LT(fit.chromophores.hemoglobin, 0.04);
         }
     }
 }

@@ -1,6 +1,8 @@
 /// blush antialias and blush bake smaa-tables, as a user runs them.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rig/antialias/smaa_tables.h"
 #include "runtime/picture_file.h"
@@ -104,6 +106,86 @@ TEST_F(CliAntialias, CpuAndGpuAgree) {
             EXPECT_LE(worst, 1) << one;
         }
     }
+}
+
+/// On CPU and GPU, by each filter in turn: the same finite picture within a step of 8 bits (relative above 1).
+class OddPictures : public CliAntialias {
+protected:
+    void expect_filtered(const std::string& ending, const PictureFile& picture) const {
+        const std::string in = "in" + ending;
+        put(in, picture);
+        const PictureFile before = get(in);
+        const std::string mode = ++tried_ % 2 == 0 ? "mlaa" : "smaa1x";
+        expect_works("antialias " + in + " -o cpu" + ending + " --on cpu --mode " + mode);
+        expect_works("antialias " + in + " -o gpu" + ending + " --on gpu --mode " + mode);
+        const PictureFile cpu = get("cpu" + ending), gpu = get("gpu" + ending);
+        ASSERT_EQ(cpu.image.channels, before.image.channels);
+        const std::size_t count = before.image.bytes.size() + before.image.floats.size();
+        ASSERT_EQ(cpu.image.bytes.size() + cpu.image.floats.size(), count);
+        ASSERT_EQ(gpu.image.bytes.size() + gpu.image.floats.size(), count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double a = number(cpu.image, i), b = number(gpu.image, i);
+            EXPECT_TRUE(std::isfinite(a)) << mode << " at " << i;
+            EXPECT_LE(std::abs(a - b), 1.001 / 255 * std::max(1.0, std::abs(a))) << mode << " at " << i;
+        }
+    }
+    /// Every third pixel is what `odd` says.
+    PictureFile with(float odd, PictureDepth depth, std::uint32_t channels = 4) const {
+        PictureFile picture = disk(channels, depth, 23, 19);
+        for (std::size_t i = 0; i < picture.image.floats.size(); i += std::size_t{3} * channels) {
+            picture.image.floats[i] = odd;
+        }
+        return picture;
+    }
+
+private:
+    mutable int tried_ = 0;
+};
+
+TEST_F(OddPictures, OfOnePixelOneRowOneColumnAndOddSides) {
+    for (const auto& [width, height] : {std::pair(1U, 1U), {37U, 1U}, {1U, 37U}, {35U, 13U}}) {
+        SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+        expect_filtered(".png", disk(3, PictureDepth::bits_8, width, height));
+    }
+    expect_filtered(".png", disk(1, PictureDepth::bits_8, 35, 13));
+    expect_filtered(".exr", disk(1, PictureDepth::half, 1, 9));
+}
+
+TEST_F(OddPictures, OfNumbersThatAreNotFiniteNegativeOrBeyondADisplay) {
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    for (const float odd : {nan, infinity, -infinity, -2.0F, 30'000.0F}) {
+        SCOPED_TRACE(odd);
+        expect_filtered(".exr", with(odd, PictureDepth::single));
+    }
+    expect_filtered(".exr", with(infinity, PictureDepth::half, 1));
+}
+
+/// What is not finite is read as 0.
+TEST_F(OddPictures, OfNothingButNanAreBlack) {
+    PictureFile picture = disk(3, PictureDepth::single, 17, 9);
+    std::ranges::fill(picture.image.floats, std::numeric_limits<float>::quiet_NaN());
+    put("in.exr", picture);
+    for (const char* on : {"cpu", "gpu"}) {
+        const Ran ran = blush(std::string("antialias in.exr -o out.exr --on ") + on);
+        EXPECT_EQ(ran.exit_status, 0);
+        EXPECT_EQ(ran.output, "out.exr: 17x9, 0 edges, 0 pixels changed\n");
+        EXPECT_EQ(get("out.exr").image.floats, std::vector<float>(std::size_t{17} * 9 * 3, 0.0F));
+    }
+}
+
+TEST_F(OddPictures, ThatAreHugeAreFilteredOrRefused) {
+    expect_filtered(".png", disk(1, PictureDepth::bits_8, 16'384, 2));
+    put("wide.png", disk(1, PictureDepth::bits_8, 16'385, 1));
+    expect_refused("antialias wide.png -o out.png", "wide.png: the image is 16385x1 pixels; a side may have 16384");
+    // A header of 16384 x 16384 pixels before the bytes of a small picture.
+    put("small.png", disk(3, PictureDepth::bits_8, 8, 8));
+    std::string bytes = bytes_of("small.png");
+    ASSERT_EQ(bytes.substr(12, 4), "IHDR");
+    bytes.replace(16, 8, std::string("\0\0\x40\0\0\0\x40\0", 8));
+    write("lie.png", bytes);
+    const Ran lie = blush("antialias lie.png -o out.png");
+    EXPECT_EQ(lie.exit_status, 2);
+    EXPECT_THAT(lie.errors, testing::StartsWith("blush: lie.png: "));
 }
 
 TEST_F(CliAntialias, SettingsByHandChangeTheResult) {

@@ -10,8 +10,8 @@ TEST_F(Cli, WrinklesAreBakedBesideAFaceAndFound) {
                                path("head.glb"));
     expect_works("bake wrinkles head.glb -o head.appearance --size 64 --mask-size 16 --displacement");
     EXPECT_EQ(listing(path("head.appearance")),
-              (std::set<std::string>{"displacement_mm.exr", "wrinkle_mask_1.png", "wrinkle_mask_2.png", "wrinkles.json",
-                                     "wrinkles.png"}));
+              (std::set<std::string>{"displacement_mm.exr", "wrinkle_mask_1.png", "wrinkle_mask_2.png",
+                                     "wrinkle_mask_3.png", "wrinkles.json", "wrinkles.png"}));
     expect_works("bake wrinkles head.glb -o again --size 64 --mask-size 16");
     expect_same("head.appearance/wrinkles.png", "again/wrinkles.png");
     expect_same("head.appearance/wrinkle_mask_1.png", "again/wrinkle_mask_1.png");
@@ -19,7 +19,7 @@ TEST_F(Cli, WrinklesAreBakedBesideAFaceAndFound) {
     EXPECT_NE(explained.output.find("wrinkles"), std::string::npos);
     EXPECT_EQ(explained.output.find("has no wrinkle maps"), std::string::npos) << explained.output;
     std::ofstream(path("head.appearance/wrinkles.json")) << "{}";
-    expect_refused("render head.glb -o x.png", "head.appearance: wrinkles.json: zones: not an array of 1 to 8 names");
+    expect_refused("render head.glb -o x.png", "head.appearance: wrinkles.json: zones: not an array of 1 to 12 names");
 }
 
 TEST_F(Cli, FacesThatCannotWrinkleAreRefused) {

@@ -1,5 +1,6 @@
 /// blush accuracy: error against time into a folder.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -37,6 +38,8 @@ Json json_of(const AccuracyReport& report) {
                  {"work", variant.work},
                  {"error_mean", variant.error_mean},
                  {"error_worst", variant.error_worst},
+                 {"error_mean_rgb", variant.channel_mean},
+                 {"error_worst_rgb", variant.channel_worst},
                  {"time_ms", {{"median", variant.median_ms}, {"quartiles", {variant.low_ms, variant.high_ms}}}},
                  {"time_ratio_to_default",
                   {{"median", variant.ratio_to_default}, {"quartiles", {variant.ratio_low, variant.ratio_high}}}},
@@ -190,8 +193,19 @@ int accuracy(const Options& options) {
     for (const MeasuredStudy& study : report->studies) {
         std::cout << study.effect << ", " << study.name << "\n";
         for (const MeasuredVariant& variant : study.variants) {
-            std::printf("  %-36s worst %9.3g %s, %8.3g ms (x%.3g of the default)\n", variant.label.c_str(),
-                        variant.error_worst, study.unit.c_str(), variant.median_ms, variant.ratio_to_default);
+            std::printf(
+                "  %-36s worst %9.3g %s, %8.3g ms (x%.3g of the default, "
+                "quartiles %.3g to %.3g), %s\n",
+                variant.label.c_str(), variant.error_worst, study.unit.c_str(), variant.median_ms,
+                variant.ratio_to_default, variant.ratio_low, variant.ratio_high, variant.work.c_str());
+            const bool by_channel = std::ranges::any_of(variant.channel_worst, [](double e) { return e > 0; });
+            if (!by_channel) continue;
+            const auto& mean = variant.channel_mean;
+            const auto& worst = variant.channel_worst;
+            std::printf(
+                "  %-36s mean %.3g, worst %.3g; red %.3g, %.3g; green %.3g, "
+                "%.3g; blue %.3g, %.3g\n",
+                "", variant.error_mean, variant.error_worst, mean[0], worst[0], mean[1], worst[1], mean[2], worst[2]);
         }
         std::fflush(stdout);
     }
@@ -211,7 +225,7 @@ void add_accuracy(CLI::App& app, int& exit_status) {
     command->add_flag("--check-finite", options->check_finite, "Fail on any error that is not finite");
     command
         ->add_option("--millimetres-per-unit", options->millimetres_a_unit,
-                     "Scale of the face; without it its largest extent is taken as 240 mm")
+                     "Scale of the face; found from its size without it")
         ->check(number_from(1e-6, 1e6));
     command->add_option("-o,--output", options->output, "A folder for accuracy.json and index.html")->required();
     command->callback([options, &exit_status] { exit_status = accuracy(*options); });

@@ -10,6 +10,7 @@ void add_bake(CLI::App& app, int& exit_status) {
     add_bake_face(*command, exit_status);
     add_bake_appearance(*command, exit_status);
     add_bake_wrinkles(*command, exit_status);
+    add_bake_occlusion(*command, exit_status);
     add_bake_smaa_tables(*command, exit_status);
 }
 

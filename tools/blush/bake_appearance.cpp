@@ -4,9 +4,12 @@
 #include <iostream>
 #include <optional>
 
+#include "rig/appearance_transfer.h"
 #include "rig/skin_inversion.h"
 #include "runtime/appearance_file.h"
+#include "runtime/face_appearance.h"
 #include "runtime/face_file.h"
+#include "tools/blush/baker_options.h"
 #include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"
 
@@ -16,23 +19,29 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-    std::string face, albedo, mask, landmarks, patterns, output;
-    std::uint32_t side = 2048;
-    AlbedoOptions separation;
+    std::string face, albedo, mask, landmarks, patterns, from, output;
+    BakerOptions baker;
     std::optional<float> typical_melanin, typical_hemoglobin;
     bool preview = false;
 };
 
-/// The colour texture of the face's skin.
+/// Blood changes over centimetres: a texel of 5 mm on the texture of a head.
+constexpr std::uint32_t one_colour_side = 128;
+
+/// The colour texture of the face's skin, or its one colour as a small texture.
 Result<ColourMap> albedo_of(const Face& face, std::span<const std::uint32_t> skin) {
+    std::optional<ColourMap> one_colour;
     for (const std::uint32_t p : skin) {
         const std::int32_t material = face.primitives[p].material;
         if (material < 0) continue;
+        const glm::vec3 colour(face.materials[static_cast<std::size_t>(material)].base_color_linear);
+        if (!one_colour && colour != glm::vec3(1)) one_colour = ColourMap(one_colour_side, one_colour_side, colour);
         const std::int32_t image = face.materials[static_cast<std::size_t>(material)].base_color_srgb.image;
         if (image < 0) continue;
         const Image& texture = face.images[static_cast<std::size_t>(image)];
         return colour_map_of(texture, face.path + ": image \"" + texture.name + "\"");
     }
+    if (one_colour) return *one_colour;
     return Error{face.path + ": its skin has no colour texture; name one with --albedo"};
 }
 
@@ -50,10 +59,32 @@ struct Inputs {
     std::optional<ScalarMap> coverage;      ///< of the albedo's size
     std::optional<CanonicalMap> canonical;  ///< of the maps' own low resolution
     std::vector<HemoglobinPattern> patterns;
+    struct Other {
+        SkinPigments pigments;
+        CanonicalMap canonical;  ///< of the size of its changes
+    };
+    std::optional<Other> other;  ///< whose expressions are taken, in place of patterns
 };
 
-/// Texels of a side of the canonical map that patterns are laid out with.
-constexpr std::uint32_t canonical_side = HemoglobinMapOptions{}.side;
+/// The face that --from names, with the maps beside it.
+Result<Inputs::Other> read_other(const std::string& name) {
+    const fs::path path = face_path(name), folder = appearance_folder(path);
+    const Result<Face> face = load_face(path);
+    if (!face) return face.error();
+    Result<FaceAppearance> appearance = load_face_appearance(folder);
+    if (!appearance) return appearance.error();
+    if (!appearance->pigments || appearance->pigments->blood.changes.empty()) {
+        return Error{folder.string() + ": no maps of an expression's blood are here to take (blush bake appearance " +
+                     name + " -o " + folder.string() + " makes them)"};
+    }
+    const std::vector<std::uint32_t> skin = skin_primitives(*face);
+    const std::optional<FaceLandmarks> landmarks = landmarks_from_targets(*face, skin);
+    const ScalarMap& layout = appearance->pigments->blood.changes[0].scale;
+    const std::optional<CanonicalMap> canonical =
+        landmarks ? canonical_map(*face, skin, CanonicalFrame(*landmarks), layout.width, layout.height) : std::nullopt;
+    if (!canonical) return Error{face->path + ": its targets do not tell where eyes and mouth are in its texture"};
+    return Inputs::Other{*std::move(appearance->pigments), *canonical};
+}
 
 Status read_face(const Options& options, Inputs& inputs) {
     const Result<Face> face = load_face(face_path(options.face));
@@ -69,10 +100,11 @@ Status read_face(const Options& options, Inputs& inputs) {
         Result<ColourMap> albedo = albedo_of(*face, skin);
         if (!albedo) return albedo.error();
         inputs.albedo = *std::move(albedo);
-        shrink(inputs.albedo, options.side);
+        shrink(inputs.albedo, options.baker.whole<std::uint32_t>("size"));
     }
     if (!landmarks) return Done{};
     const CanonicalFrame frame(*landmarks);
+    const auto canonical_side = options.baker.whole<std::uint32_t>("change_size");
     inputs.canonical = canonical_map(*face, skin, frame, canonical_side, canonical_side);
     const std::optional<CanonicalMap> full =
         canonical_map(*face, skin, frame, inputs.albedo.width, inputs.albedo.height);
@@ -91,7 +123,7 @@ Result<Inputs> read_inputs(const Options& options) {
         Result<ColourMap> albedo = load_colour_map(options.albedo);
         if (!albedo) return albedo.error();
         inputs.albedo = *std::move(albedo);
-        shrink(inputs.albedo, options.side);
+        shrink(inputs.albedo, options.baker.whole<std::uint32_t>("size"));
     }
     if (!options.face.empty()) {
         if (Status read = read_face(options, inputs); !read) return read.error();
@@ -109,10 +141,19 @@ Result<Inputs> read_inputs(const Options& options) {
     if (!options.landmarks.empty()) {
         const Result<TextureLandmarks> places = load_texture_landmarks(options.landmarks);
         if (!places) return places.error();
+        const auto canonical_side = options.baker.whole<std::uint32_t>("change_size");
         inputs.canonical = canonical_map(*places, canonical_side, canonical_side);
         if (!inputs.canonical) return Error{options.landmarks + ": eyes and mouth lie on one line"};
     }
-    if (inputs.canonical) {
+    if (!options.from.empty()) {
+        if (!inputs.canonical) {
+            return Error{"bake appearance: --from " + options.from +
+                         " needs a FACE or --landmarks to know where its blood goes"};
+        }
+        Result<Inputs::Other> other = read_other(options.from);
+        if (!other) return other.error();
+        inputs.other = *std::move(other);
+    } else if (inputs.canonical) {
         const fs::path folder = options.patterns.empty() ? asset_folder() / "hemoglobin" : fs::path(options.patterns);
         Result<std::vector<HemoglobinPattern>> patterns = load_hemoglobin_patterns(folder);
         if (!patterns) return patterns.error();
@@ -153,7 +194,8 @@ int bake(const Options& options) {
     if (!inputs) return fail(inputs.error());
     NewFolder folder;
     if (Status made = folder.make(options.output); !made) return fail(made.error());
-    AlbedoOptions separation = options.separation;
+    AlbedoOptions separation;
+    separation.lightness_weight = static_cast<float>(options.baker.number("lightness"));
     separation.typical_melanin = options.typical_melanin;
     separation.typical_hemoglobin = options.typical_hemoglobin;
     const std::optional<ScalarMap> face =
@@ -166,7 +208,13 @@ int bake(const Options& options) {
     if (Status s = write_appearance(options.output, maps); !s) return fail(s.error());
     HemoglobinMaps blood;
     if (inputs->canonical) {
-        blood = hemoglobin_maps(maps, *inputs->canonical, inputs->patterns);
+        HemoglobinMapOptions layout;
+        layout.side = options.baker.whole<std::uint32_t>("change_size");
+        layout.radius = static_cast<float>(options.baker.number("radius"));
+        blood = inputs->other ? transferred_maps(inputs->other->pigments.blood,
+                                                 {inputs->other->pigments.maps, inputs->other->canonical},
+                                                 {maps, *inputs->canonical}, layout)
+                              : hemoglobin_maps(maps, *inputs->canonical, inputs->patterns, layout);
         if (Status s = write_hemoglobin_maps(options.output, blood); !s) return fail(s.error());
     }
     if (options.preview) {
@@ -189,14 +237,9 @@ void add_bake_appearance(CLI::App& bake_command, int& exit_status) {
     command->add_option("--mask", options->mask, "Picture that is bright where the texture is skin");
     command->add_option("--landmarks", options->landmarks, "JSON with left_eye, right_eye and mouth in the texture");
     command->add_option("--patterns", options->patterns, "Folder of hemoglobin patterns instead of the shipped ones");
-    command->add_option("--size", options->side, "Longest side of the maps; larger textures are reduced")
-        ->check(CLI::Range(1U, 16'384U))
-        ->capture_default_str();
-    command
-        ->add_option("--lightness", options->separation.lightness_weight,
-                     "How much of lightness is pigment: 1 all (shadows become melanin), 0 none (all is light)")
-        ->check(number_from(0, 1))
-        ->capture_default_str();
+    command->add_option("--from", options->from,
+                        "Another face with maps beside it: its expressions' blood instead of the shipped patterns");
+    options->baker.add_to(*command, appearance_baking_effect);
     command->add_option("--melanin", options->typical_melanin, "Melanin fraction of the typical skin, where known")
         ->check(number_from(0, largest_melanin));
     command

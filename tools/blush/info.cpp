@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "rig/face_scale.h"
 #include "runtime/face_file.h"
 #include "tools/blush/options.h"
 
@@ -39,6 +40,8 @@ Json describe(const Face& face) {
     json["file"] = face.path;
     json["vertices"] = face.positions.size();
     json["triangles"] = face.indices.size() / 3;
+    const FaceScale scale = face_scale(face);
+    json["scale"] = {{"millimetres_a_unit", scale.millimetres_a_unit}, {"told_by", scale.told_by}};
     json["meshes"] = Json::array();
     for (const Mesh& mesh : face.meshes) {
         json["meshes"].push_back({{"name", mesh.name},
@@ -88,7 +91,9 @@ Json describe(const Face& face) {
 void print(const Json& json) {
     const auto text = [](const Json& value) { return value.get<std::string>(); };
     std::cout << text(json["file"]) << ": " << json["vertices"] << " vertices, " << json["triangles"] << " triangles, "
-              << json["nodes"] << " nodes, " << json["skins"] << " skins\n";
+              << json["nodes"] << " nodes, " << json["skins"] << " skins\n"
+              << "scale: " << json["scale"]["millimetres_a_unit"].get<float>() << " mm a unit, since "
+              << text(json["scale"]["told_by"]) << "\n";
     std::cout << "\nmeshes (" << json["meshes"].size() << ")\n";
     for (const Json& mesh : json["meshes"]) {
         std::cout << "  " << (text(mesh["name"]).empty() ? "(unnamed)" : text(mesh["name"])) << ": " << mesh["vertices"]

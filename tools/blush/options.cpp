@@ -8,9 +8,10 @@
 #include <memory>
 
 #include "rig/names.h"
-#include "rig/skin_material.h"
+#include "runtime/character_state.h"
 #include "runtime/face_file.h"
 #include "runtime/lighting_file.h"
+#include "runtime/occlusion_file.h"
 #include "runtime/rig_description_file.h"
 
 namespace blush::tool {
@@ -163,13 +164,23 @@ void LightOptions::add_to(CLI::App& command) {
         ->check(number_from(0, 1e4));
 }
 
+namespace {
+
+/// Millimetres a unit, as its settings or itself have it.
+double scale_of(Character& character) {
+    const double set = character.state().settings.number("scattering", "millimetres_a_unit");
+    return set > 0 ? set : character.state().scale.millimetres_a_unit;
+}
+
+}  // namespace
+
 Result<std::optional<Lighting>> LightOptions::lighting(Character& character) const {
     if (lights.empty() && environment.empty()) return std::optional<Lighting>();
     Lighting result;
     if (!lights.empty()) {
         const Bounds bounds = moving_bounds(character.face());
         Result<Lighting> read = fs::path(lights).extension() == ".json"
-                                    ? read_lighting(lights, bounds, millimetres_a_unit(bounds))
+                                    ? read_lighting(lights, bounds, scale_of(character))
                                     : named_lighting(lights);
         if (!read) return Error{"--lights: " + read.error().message};
         result = *std::move(read);
@@ -196,6 +207,8 @@ Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const Po
     if (!description) return description.error();
     Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face->path));
     if (!appearance) return appearance.error();
+    Result<std::optional<OcclusionSet>> occlusion = find_occlusion(*face);
+    if (!occlusion) return occlusion.error();
     Result<Device> device = Device::headless();
     if (!device) return device.error();
     Result<Character> character = Character::create(*device, *std::move(face), *description);
@@ -203,6 +216,7 @@ Result<std::unique_ptr<Stage>> make_stage(const std::string& face_name, const Po
     auto stage = std::make_unique<Stage>(Stage{*std::move(device), *std::move(character)});
     Character& ready = stage->character;
     ready.set_appearance(*std::move(appearance));
+    ready.set_occlusion(*std::move(occlusion));
     if (Status set = pose.apply(ready.face(), ready.rig(), ready.controls()); !set) return set.error();
     if (Status set = pose.apply_settings(ready); !set) return set.error();
     return stage;

@@ -92,6 +92,7 @@ void add_antialias(CLI::App& app, int& exit_status);
 void add_bake_appearance(CLI::App& bake_command, int& exit_status);
 void add_bake_face(CLI::App& bake_command, int& exit_status);
 void add_bake_wrinkles(CLI::App& bake_command, int& exit_status);
+void add_bake_occlusion(CLI::App& bake_command, int& exit_status);
 void add_bake_smaa_tables(CLI::App& bake_command, int& exit_status);
 
 }  // namespace blush::tool

@@ -82,6 +82,7 @@ Status FaceCommand::run(const fs::path& preset_folder) const {
         print_list(preset_folder);
         return Done{};
     }
+    if (output.empty()) return Error{"--output is required"};
     const Result<Person> who = person(preset_folder);
     if (!who) return who.error();
     // An unwritable path is found out before the seconds of work.

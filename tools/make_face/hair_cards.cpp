@@ -18,7 +18,7 @@ Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
 }
 
 /// 1 over the forehead and the top of the head, 0 on its sides and at the nape.
-double on_top(const Vec3& p) { return smooth_step(40, 64, p.y + 0.12 * p.z); }
+double on_top(const Vec3& p) { return smooth_step(22, 78, p.y + 0.12 * p.z); }
 
 /// The way hair is combed at a place of the scalp.
 Vec3 combed(const Vec3& p, const Vec3& normal, const HairStyle& style) {

@@ -1,0 +1,235 @@
+/// The baker of pigment maps (`blush bake appearance`): work that was done before any frame, so that frames do not do
+/// it.
+
+#include <algorithm>
+#include <array>
+
+#include "rig/appearance.h"
+#include "rig/colour_difference.h"
+#include "rig/hemoglobin.h"
+#include "rig/skin_colour_table.h"
+#include "runtime/appearance_file.h"
+#include "runtime/character_state.h"
+#include "runtime/effect.h"
+
+namespace blush {
+namespace {
+
+constexpr std::array<Setting, 4> settings = {{
+    {.name = "size",
+     .meaning = "longest side of the maps, texels; larger textures are reduced",
+     .lowest = 1,
+     .highest = 16'384,
+     .default_number = 2048},
+    {.name = "change_size",
+     .meaning = "texels of a side of the maps of scale and offset of each expression",
+     .lowest = 4,
+     .highest = 4096,
+     .default_number = 256},
+    {.name = "radius",
+     .meaning = "radius of the disc of the local statistics (jimenez-2012, eq. 7.1), as a share of the maps' width",
+     .lowest = 0,
+     .highest = 100,
+     .default_number = 0.03125},
+    {.name = "lightness",
+     .meaning = "how much of lightness is pigment: 1 all (shadows become melanin), 0 none (all is light)",
+     .lowest = 0,
+     .highest = 1,
+     .default_number = 0.35},
+}};
+
+Need need(const CharacterState& state) {
+    Need need{.on = false, .reason = "frames bake nothing, and the face has no maps to draw (blush bake appearance)"};
+    if (state.appearance.pigments) need.reason = "the face's pigments are baked already";
+    if (!state.facts.has_skin) need.reason = "there is nothing to bake: the face has no skin";
+    need.can_be_forced = false;
+    return need;
+}
+
+const SkinColourTable& exact_table() {
+    // Differs from the model by CIEDE2000 0.002 at most; the model itself takes a millisecond for a hundred colours.
+    static const SkinColourTable table(192, 192);
+    return table;
+}
+
+Variant::Error difference(const ScalarMap& a, const ScalarMap& b, float melanin) {
+    Variant::Error error;
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        const double d = ciede2000_of_srgb_linear(glm::dvec3(exact_table().colour_linear(melanin, a.values[i])),
+                                                  glm::dvec3(exact_table().colour_linear(melanin, b.values[i])));
+        error.mean += d / static_cast<double>(a.values.size());
+        error.worst = std::max(error.worst, d);
+    }
+    return error;
+}
+
+/// Between the nodes of all of the sizes: the model itself.
+Study table_study() {
+    Study study{"the table of skin's colour, between its nodes",
+                "the spectral model in double precision",
+                "CIEDE2000",
+                {},
+                nullptr};
+    for (const std::uint32_t nodes : {8U, 16U, 32U, 64U}) {
+        Variant variant;
+        variant.label = "blood.table_nodes=" + std::to_string(nodes);
+        variant.work = std::to_string(nodes * nodes) + " colours";
+        variant.is_default = nodes == SkinColourTable::default_nodes;
+        variant.run = [nodes] { const SkinColourTable table(nodes, nodes); };
+        variant.error = [nodes] {
+            const SkinColourTable table(nodes, nodes);
+            constexpr int steps = 11;
+            Variant::Error error;
+            for (int i = 0; i < steps * steps; ++i) {
+                SkinChromophores skin;
+                skin.melanin = static_cast<double>(
+                    table_fraction((static_cast<float>(i % steps) + 0.37F) / steps, largest_melanin));
+                skin.hemoglobin = static_cast<double>(
+                    table_fraction((static_cast<float>(i / steps) + 0.61F) / steps, largest_hemoglobin));
+                const glm::dvec3 looked_up(
+                    table.colour_linear(static_cast<float>(skin.melanin), static_cast<float>(skin.hemoglobin)));
+                const double d = ciede2000_of_srgb_linear(looked_up, glm::max(skin_colour_linear(skin), glm::dvec3(0)));
+                error.mean += d / (steps * steps);
+                error.worst = std::max(error.worst, d);
+            }
+            return error;
+        };
+        study.variants.push_back(std::move(variant));
+    }
+    return study;
+}
+
+/// The face's blood at rest, and the same mirrored and half as much again as its expression: other vessels, more blood.
+struct Blood {
+    ScalarMap rest, expression, skin, exact;
+    float melanin = 0.02F, radius = 4;
+};
+
+/// Scale and bias (7.3) at several resolutions against the exact local histogram matching that they stand for.
+Study matching_study(const std::shared_ptr<const Blood>& blood) {
+    Study study{"scale and bias of an expression with half as much blood again, 64 x 64 texels of the face",
+                "exact local histogram matching",
+                "CIEDE2000",
+                {},
+                std::const_pointer_cast<Blood>(blood)};
+    const std::uint32_t side = blood->rest.width;
+    for (const std::uint32_t coarser : {1U, 2U, 4U, 8U}) {
+        const auto matched = [blood, coarser, side] {
+            HemoglobinChange change = hemoglobin_change(local_statistics(blood->rest, blood->radius),
+                                                        local_statistics(blood->expression, blood->radius));
+            change.scale = resized(change.scale, side / coarser, side / coarser);
+            change.offset = resized(change.offset, side / coarser, side / coarser);
+            const float weight = 1;
+            return blended_hemoglobin(blood->rest, blood->skin, std::span(&weight, 1), std::span(&change, 1));
+        };
+        Variant variant;
+        variant.label = coarser == 1 ? "at full resolution" : "at 1/" + std::to_string(coarser) + " of it";
+        variant.work = std::to_string(side / coarser) + " texels a side";
+        variant.is_default = coarser == 4;
+        variant.run = [matched] { (void)matched(); };
+        variant.error = [matched, blood] { return difference(matched(), blood->exact, blood->melanin); };
+        study.variants.push_back(std::move(variant));
+    }
+    Variant exact;
+    exact.label = "exact histogram matching";
+    exact.work = std::to_string(side) + " texels a side";
+    exact.run = [blood] { (void)matched_locally(blood->rest, blood->expression, blood->radius); };
+    exact.error = [] { return Variant::Error{}; };
+    study.variants.push_back(std::move(exact));
+    Variant none;
+    none.label = "no change at all";
+    none.work = "nothing";
+    none.run = [] {};
+    none.error = [blood] { return difference(blood->rest, blood->exact, blood->melanin); };
+    study.variants.push_back(std::move(none));
+    return study;
+}
+
+/// What white * light * table leaves of the texture's colour unexplained: what the residual holds besides light.
+Study inversion_study(const std::shared_ptr<const ColourMap>& albedo) {
+    Study study{"colours of the face's texture out of its melanin and blood, 128 texels a side",
+                "the texture",
+                "CIEDE2000 (median, and 99th percentile as worst)",
+                {},
+                std::const_pointer_cast<ColourMap>(albedo)};
+    for (const float lightness : {0.0F, 0.35F, 1.0F}) {
+        const auto report = [albedo, lightness] {
+            AlbedoOptions options;
+            options.lightness_weight = lightness;
+            AlbedoReport found;
+            (void)appearance_from_albedo(*albedo, exact_table(), options, nullptr, &found);
+            return found;
+        };
+        Variant variant;
+        variant.label = lightness == 0   ? "appearance_baking.lightness=0"
+                        : lightness == 1 ? "appearance_baking.lightness=1"
+                                         : "appearance_baking.lightness=0.35";
+        variant.work = std::to_string(albedo->values.size()) + " texels inverted";
+        variant.is_default = lightness > 0 && lightness < 1;
+        variant.run = [report] { (void)report(); };
+        variant.error = [report] {
+            const AlbedoReport found = report();
+            return Variant::Error{static_cast<double>(found.median_difference),
+                                  static_cast<double>(found.percentile_99_difference)};
+        };
+        study.variants.push_back(std::move(variant));
+    }
+    return study;
+}
+
+/// The colour texture of the first material that has one and whose name or tag says skin; of the largest one otherwise.
+std::shared_ptr<const ColourMap> albedo_of(const Face& face) {
+    const Material* chosen = nullptr;
+    for (const Material& material : face.materials) {
+        if (material.base_color_srgb.image < 0) continue;
+        if (chosen == nullptr || material.skin.value_or(false)) chosen = &material;
+    }
+    if (chosen == nullptr) return nullptr;
+    const Result<ColourMap> map =
+        colour_map_of(face.images[static_cast<std::size_t>(chosen->base_color_srgb.image)], face.path);
+    return map ? std::make_shared<const ColourMap>(resized(*map, 128, 128)) : nullptr;
+}
+
+std::vector<Study> studies(const Device& /*device*/, const Face& face, double /*millimetres_a_unit*/, bool quick) {
+    std::vector<Study> result;
+    result.push_back(table_study());
+    const std::shared_ptr<const ColourMap> albedo = albedo_of(face);
+    if (!albedo || quick) return result;
+    const AppearanceMaps maps = appearance_from_albedo(*albedo, exact_table());
+    auto blood = std::make_shared<Blood>();
+    constexpr std::uint32_t side = 64;
+    blood->rest = blood->expression = ScalarMap(side, side);
+    blood->skin = ScalarMap(side, side, 1);
+    for (std::uint32_t y = 0; y < side; ++y) {
+        for (std::uint32_t x = 0; x < side; ++x) {
+            blood->rest.at(x, y) = maps.hemoglobin.at(32 + x, 32 + y);
+            blood->expression.at(x, y) = 1.5F * maps.hemoglobin.at(95 - x, 32 + y);
+        }
+    }
+    blood->exact = matched_locally(blood->rest, blood->expression, blood->radius);
+    result.push_back(matching_study(blood));
+    result.push_back(inversion_study(albedo));
+    return result;
+}
+
+constexpr std::array<HardCase, 1> hard_cases = {{
+    {"texture of one black texel", "keeps its colour, and finite",
+     [](Face& face) {
+         for (Image& image : face.images) image = {image.name, 1, 1, 4, {0, 0, 0, 255}, {}};
+     }},
+}};
+
+}  // namespace
+
+const Effect appearance_baking_effect = {
+    .name = "appearance_baking",
+    .what = "finds ahead of time what pigments colour the skin",
+    .settings = settings,
+    .stage = Stage::surface,
+    .need = need,
+    .declare = [](CharacterState&) {},
+    .studies = studies,
+    .hard_cases = hard_cases,
+};
+
+}  // namespace blush

@@ -1,0 +1,30 @@
+#pragma once
+/// Options of a bake command out of the settings of its effect: one source of names, meanings, ranges and defaults.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "runtime/effect.h"
+
+namespace blush::tool {
+
+class BakerOptions {
+public:
+    /// Adds --NAME for each number among the effect's settings ("mask_size" becomes --mask-size).
+    void add_to(CLI::App& command, const Effect& effect);
+
+    double number(std::string_view setting) const { return values_.find(setting)->second; }
+    template <class Whole>
+    Whole whole(std::string_view setting) const {
+        return static_cast<Whole>(number(setting));
+    }
+
+private:
+    std::map<std::string, double, std::less<>> values_;
+};
+
+}  // namespace blush::tool
