@@ -94,8 +94,13 @@ struct Material {
     glm::vec3 emissive_linear{0};
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
+    float specular = 1;  ///< factor on reflection at the surface, 0 to 1 (KHR_materials_specular)
+    /// Opacity of the base colour's texture is how far light scatters, 0 to 1 (glTF: extras.blush_scattering is
+    /// "base_color_alpha"); of an opaque material only, which has no other use for it.
+    bool scatter_by_alpha = false;
     std::optional<bool> skin;  ///< whether the file says that light scatters in it (glTF: extras.blush_skin)
     TextureUse base_color_srgb, metallic_roughness, normal, occlusion, emissive_srgb;
+    TextureUse specular_map;  ///< alpha: factor on reflection at the surface
 };
 
 /// A decoded image, rows from the top, `channels` interleaved (1 to 4). 8-bit files stay 8-bit, others become float.

@@ -167,6 +167,23 @@ private:
         }
         if (source.alpha_mode == AlphaMode::blend) material.alphaMode = "BLEND";
         material.doubleSided = source.double_sided;
+        if (source.specular != 1 || source.specular_map.image >= 0) {
+            tinygltf::Value::Object specular = {
+                {"specularFactor", tinygltf::Value(static_cast<double>(source.specular))}};
+            if (source.specular_map.image >= 0) {
+                tinygltf::TextureInfo info;
+                set_texture(info, source.specular_map);
+                specular["specularTexture"] = tinygltf::Value(tinygltf::Value::Object{
+                    {"index", tinygltf::Value(info.index)}, {"texCoord", tinygltf::Value(info.texCoord)}});
+            }
+            material.extensions["KHR_materials_specular"] = tinygltf::Value(specular);
+            auto& used = model_.extensionsUsed;
+            if (std::ranges::find(used, "KHR_materials_specular") == used.end())
+                used.emplace_back("KHR_materials_specular");
+        }
+        if (source.scatter_by_alpha)
+            material.extras = tinygltf::Value(
+                tinygltf::Value::Object{{"blush_scattering", tinygltf::Value(std::string("base_color_alpha"))}});
         model_.materials.push_back(material);
     }
 
@@ -286,7 +303,7 @@ Result<std::string> glb_bytes(const Face& face, std::span<const PackedImage> ima
         return Error{face.path + ": skins and animations cannot be written"};
     for (const Material& material : face.materials) {
         for (const TextureUse* use : {&material.base_color_srgb, &material.metallic_roughness, &material.normal,
-                                      &material.occlusion, &material.emissive_srgb}) {
+                                      &material.occlusion, &material.emissive_srgb, &material.specular_map}) {
             if (use->image >= static_cast<std::int32_t>(images.size()))
                 return Error{face.path + ": a texture of \"" + material.name + "\" has no image"};
             if (use->uv_transform != glm::mat3(1)) return Error{face.path + ": texture transforms cannot be written"};
