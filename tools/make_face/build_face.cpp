@@ -37,6 +37,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
                             .base_color_png = png(base_color(*face.pigments, table)),
                             .normal_png = png(paint_relief(texels)),
                             .roughness_png = png(paint_roughness(coarse_texels)),
+                            .specular_png = png(paint_specular(coarse_texels)),
                             .occluded = true};
     face.materials[eye] = {
         .name = "eye", .roughness = 0.1, .base_color_png = png(paint_eye(eye_texture_side, vec3(person.skin.eyes)))};

@@ -34,6 +34,7 @@ Material material_of(const MaterialPart& part, std::vector<load::PackedImage>& i
     material.base_color_srgb.image = add_image(part.name + "Color", part.base_color_png, images);
     material.normal.image = add_image(part.name + "Normal", part.normal_png, images);
     material.metallic_roughness.image = add_image(part.name + "Roughness", part.roughness_png, images);
+    material.specular_map.image = add_image(part.name + "Specular", part.specular_png, images);
     if (part.occluded) material.occlusion.image = material.metallic_roughness.image;
     return material;
 }

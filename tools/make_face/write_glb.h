@@ -23,7 +23,7 @@ struct MaterialPart {
     std::string name;
     std::array<double, 4> base_color_linear{1, 1, 1, 1};
     double roughness = 0.5;
-    std::vector<unsigned char> base_color_png{}, normal_png{}, roughness_png{};  ///< empty: none
+    std::vector<unsigned char> base_color_png{}, normal_png{}, roughness_png{}, specular_png{};  ///< empty: none
     double normal_scale = 1;
     bool double_sided = false;
     bool blended = false;   ///< the base colour's alpha is coverage
