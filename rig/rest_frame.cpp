@@ -102,7 +102,7 @@ std::vector<glm::vec4> tangents_from_uv(std::span<const glm::vec3> positions, st
         const bool has_direction = glm::length(in_plane) > 1e-6 * glm::length(sums[i].u);
         const glm::vec3 perpendicular = any_perpendicular(normals[i]);
         const glm::vec3 tangent = has_direction ? unit_or(in_plane, perpendicular) : perpendicular;
-        const bool mirrored = has_direction && glm::dot(glm::cross(normal, glm::dvec3(tangent)), sums[i].v) < 0;
+        const bool mirrored = has_direction && glm::dot(glm::cross(normal, glm::dvec3(tangent)), sums[i].v) > 0;
         tangents[i] = glm::vec4(tangent, mirrored ? -1.0F : 1.0F);
     }
     return tangents;

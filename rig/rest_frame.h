@@ -22,11 +22,12 @@ std::vector<std::uint32_t> weld(std::span<const glm::vec3> positions);
 std::vector<glm::vec3> smooth_normals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles);
 
 /// Tangents for normal maps: xyz is the direction in which u grows on the surface (area-weighted over the triangles
-/// around the vertex, then made perpendicular to the normal), w the side of v: bitangent = cross(normal, xyz) * w, so w
-/// = -1 where the texture is mirrored. Unit length always; where the texture coordinates have no gradient, any
-/// perpendicular and +1. `normals` are of unit length; all spans but `triangles` have one entry a vertex. The gradient
-/// of the texture coordinates over a triangle is Lengyel's ("Foundations of Game Engine Development 2:
-/// Rendering", 7.5).
+/// around the vertex, then made perpendicular to the normal), w the side: bitangent = cross(normal, xyz) * w points
+/// to where v falls, which is up in the image, since glTF has v = 0 at its upper edge and a normal map's green stand
+/// for up (glTF 2.0, 3.8.2 and 3.9.3). So w = -1 where the texture is mirrored as seen from outside. Unit length
+/// always; where the texture coordinates have no gradient, any perpendicular and +1. `normals` are of unit length; all
+/// spans but `triangles` have one entry a vertex. The gradient of the texture coordinates over a triangle is Lengyel's
+/// ("Foundations of Game Engine Development 2: Rendering", 7.5).
 std::vector<glm::vec4> tangents_from_uv(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                                         std::span<const glm::vec2> uv, std::span<const std::uint32_t> triangles);
 

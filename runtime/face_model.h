@@ -31,7 +31,7 @@ enum ShadeBits : std::uint32_t {
     shade_mouth = 1U << 16,
     shade_hair = 1U << 17,
     shade_pigment_colour = 1U << 18,  ///< with blood
-    shade_specular_map = 1U << 24,  ///< of the material
+    shade_specular_map = 1U << 24,    ///< of the material
 };
 
 struct FaceModel {

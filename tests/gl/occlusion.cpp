@@ -8,7 +8,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "runtime/effect.h"
 #include "runtime/character_state.h"
 #include "runtime/effect.h"
 #include "runtime/environment_map.h"

@@ -62,20 +62,22 @@ protected:
     const std::vector<std::uint32_t> triangle = {0, 1, 2};
 };
 
-TEST_F(Tangents, FollowU) {
+// An image's v grows downwards, so a texture that reads rightly from outside has v against y here.
+
+TEST_F(Tangents, FollowUAndPointUpInTheImage) {
     for (const glm::vec4& t :
-         tangents_from_uv(positions, normals, std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}, triangle)) {
+         tangents_from_uv(positions, normals, std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}}, triangle)) {
         EXPECT_EQ(t, glm::vec4(1, 0, 0, 1));
     }
     for (const glm::vec4& t :
-         tangents_from_uv(positions, normals, std::vector<glm::vec2>{{0, 0}, {0, -1}, {1, 0}}, triangle)) {
+         tangents_from_uv(positions, normals, std::vector<glm::vec2>{{0, 0}, {0, 1}, {1, 0}}, triangle)) {
         EXPECT_EQ(t, glm::vec4(0, 1, 0, 1));
     }
 }
 
 TEST_F(Tangents, MirroredTextureTurnsTheSign) {
     for (const glm::vec4& t :
-         tangents_from_uv(positions, normals, std::vector<glm::vec2>{{0, 0}, {-1, 0}, {0, 1}}, triangle)) {
+         tangents_from_uv(positions, normals, std::vector<glm::vec2>{{1, 1}, {0, 1}, {1, 0}}, triangle)) {
         EXPECT_EQ(t, glm::vec4(-1, 0, 0, -1));
     }
 }
