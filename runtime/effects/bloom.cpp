@@ -115,7 +115,7 @@ void declare(CharacterState& state) {
 constexpr std::array<HardCase, 3> hard_cases = {{
     {"a frame of one pixel", "nothing to spread over", [](Face&) {}, 0,
      [](View& view) { view.width = view.height = 1; }},
-    {"a black frame", "black",
+    {"a black frame", "black everywhere",
      [](Face& face) {
          for (Primitive& primitive : face.primitives) primitive.index_count = 0;
      },

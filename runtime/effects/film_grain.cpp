@@ -51,7 +51,7 @@ void declare(CharacterState& state) {
 }
 
 constexpr std::array<HardCase, 1> hard_cases = {{
-    {"a frame of one pixel", "one grain", [](Face&) {}, 0, [](View& view) { view.width = view.height = 1; }},
+    {"a frame of one pixel", "one grain is drawn", [](Face&) {}, 0, [](View& view) { view.width = view.height = 1; }},
 }};
 
 }  // namespace

@@ -31,7 +31,7 @@ constexpr std::array<Setting, 4> settings = {{
      .meaning = "size on the screen, in pixels a millimetre of skin, below which wrinkles are left out",
      .lowest = 0,
      .highest = 100,
-     .default_number = 0.1},
+     .default_number = 0.06},
 }};
 
 bool any_wrinkle(const CharacterState& state) {

@@ -113,6 +113,8 @@ TEST_F(CameraEffects, ExposureIsItsTwinAndAdaptsByTheTimeThatHasPassed) {
     ASSERT_TRUE(character.set("exposure.mode", "automatic"));
     ASSERT_TRUE(character.set("exposure.metering", "centre"));
     ASSERT_TRUE(character.set("exposure.brighter_half_life", "0.25"));
+    // As radiance is resolved, which the meter's frame shows.
+    ASSERT_TRUE(character.set("multisampling.resolve", "average"));
     const Offscreen display = make_offscreen(47, 39), linear = make_offscreen(47, 39, Output::linear_hdr);
     Lighting bright, dark;
     bright.sky_radiance_linear = bright.ground_radiance_linear = glm::vec3(4);

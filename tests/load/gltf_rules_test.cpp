@@ -250,8 +250,8 @@ TEST_F(GltfRules, NormalsWithoutLengthAreComputed) {
 TEST_F(GltfRules, TangentsFollowTheTextureCoordinates) {
     const Face face = load(one_target());
     EXPECT_FALSE(face.primitives[0].authored_tangents);
-    // glTF's v grows downwards on the image, so on this grid u runs along x and v along -y.
-    for (const glm::vec4& tangent : face.tangents) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, -1));
+    // On this grid u runs along x and v along -y: the texture reads rightly from outside, and its green points up.
+    for (const glm::vec4& tangent : face.tangents) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
 }
 
 TEST_F(GltfRules, JointWeightsSumToOne) {

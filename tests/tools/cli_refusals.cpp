@@ -214,7 +214,7 @@ TEST_F(Cli, MakeFaceRefusesWithASentence) {
     };
     EXPECT_EQ(refused("-o no/x.glb"), "make_face: no/x.glb: cannot be written: No such file or directory\n");
     EXPECT_EQ(refused("-o x.glb --vertices 5"), "make_face: --vertices: Value 5 not in range 5000 to 1000000\n");
-    EXPECT_EQ(refused(""), "make_face: the output path is empty\n");
+    EXPECT_EQ(refused(""), "make_face: --output is required\n");
     EXPECT_EQ(refused("-o x.glb --set jaw_with=1"),
               "make_face: --set: no parameter \"jaw_with\" of the face (did you mean \"jaw_width\"?)\n");
     EXPECT_EQ(refused("-o x.glb --set jaw_width=9"), "make_face: --set: jaw_width may go from -3.0 to 3.0 (sd)\n");

@@ -15,13 +15,15 @@ TEST_F(Cli, ControlsListsThemByKindWithWhatTheyDrive) {
     EXPECT_EQ(ran.exit_status, 0) << ran.errors;
     EXPECT_THAT(ran.output, HasSubstr("targets (3), 0 to 1\n  jawOpen\n"));
     EXPECT_THAT(ran.output, HasSubstr("angles (9), -1 to 1 radians\n"));
-    EXPECT_THAT(ran.output, HasSubstr("  AU12: lip corner puller; drives mouthSmileLeft 1; blood joy 0.25\n"));
+    EXPECT_THAT(ran.output,
+                HasSubstr("  AU12: lip corner puller; drives mouthSmileLeft 1; wrinkles crowsFeetLeft 0.15, "
+                          "nasolabialLeft 0.9; blood joy 0.25\n"));
     EXPECT_THAT(ran.output, HasSubstr("  AU12: mouthSmileRight\n"));
     EXPECT_THAT(ran.output, HasSubstr("ARKit shapes without a match (49)\n"));
     const Json json = Json::parse(blush("controls face.glb --json").output);
     EXPECT_EQ(json["controls"][0]["name"], "jawOpen");
     EXPECT_EQ(json["controls"][0]["kind"], "target");
-    EXPECT_EQ(json["wrinkle_zones"].size(), 8U);
+    EXPECT_EQ(json["wrinkle_zones"].size(), 12U);
     EXPECT_EQ(json["hemoglobin_maps"].size(), 11U);
     EXPECT_TRUE(json["rig"].is_null());
 }
