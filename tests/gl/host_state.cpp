@@ -307,8 +307,8 @@ protected:
     }
 };
 
-/// The same picture, but for two bytes that may be off by 1: under the wild host the weighted resolve of the samples rounds
-/// one pixel to its neighbour on llvmpipe (the plain one does not), for a reason that is not known yet.
+/// The same picture, but for two bytes that may be off by 1: under the wild host the weighted resolve of the samples
+/// rounds one pixel to its neighbour on llvmpipe (the plain one does not), for a reason that is not known yet.
 void expect_nearly_same(const Image& image, const Image& expected) {
     ASSERT_EQ(image.bytes.size(), expected.bytes.size());
     std::size_t different = 0;
