@@ -112,8 +112,8 @@ TEST_F(Tangents, MirroredHalvesThatMeetGiveUnitTangents) {
         expect_unit(glm::vec3(t));
         EXPECT_EQ(std::abs(t.w), 1);
     }
-    EXPECT_EQ(tangents[1], glm::vec4(1, 0, 0, 1));
-    EXPECT_EQ(tangents[3], glm::vec4(-1, 0, 0, -1));
+    EXPECT_EQ(tangents[1], glm::vec4(1, 0, 0, -1));
+    EXPECT_EQ(tangents[3], glm::vec4(-1, 0, 0, 1));
 }
 
 }  // namespace
