@@ -45,10 +45,10 @@ glm::dvec3 enlarged(const Picture& from, std::uint32_t x, std::uint32_t y) {
 }  // namespace
 
 std::uint32_t bloom_levels(double radius_of_height, std::uint32_t width, std::uint32_t height) {
-    constexpr double most = 8;  // a 256th: smoother than that is a constant
+    constexpr double most_levels = 8;  // a 256th: smoother than that is a constant
     const double fits = std::max(1.0, std::floor(std::log2(static_cast<double>(std::max(width, height)))));
     const double wanted = std::round(std::log2(std::max(radius_of_height * height, 1.0)));
-    return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::min(fits, most)));
+    return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::min(fits, most_levels)));
 }
 
 Picture bloomed(const Picture& radiance_linear, double strength, double threshold, std::uint32_t levels) {
