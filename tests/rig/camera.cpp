@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "rig/bloom.h"
@@ -69,12 +70,13 @@ TEST(DepthOfField, RadiiFollowTheThinLens) {
     const ThinLens lens{.f_number = 2, .focal_length_mm = 80, .focus_mm = 1000, .sensor_height_mm = 24};
     const BlurRadius blur = blur_radius(lens, 480, 1e9);
     EXPECT_EQ(blur.at(1000), 0);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     // c = A F |d - s| / (d (s - F)): A = 40 mm.
     const double behind_mm = 40.0 * 80 * 500 / (1500 * 920), before_mm = 40.0 * 80 * 300 / (700 * 920);
     EXPECT_NEAR(blur.at(1500), 0.5 * behind_mm / 24 * 480, 1e-9);
     EXPECT_NEAR(blur.at(700), -0.5 * before_mm / 24 * 480, 1e-9);
-    EXPECT_NEAR(blur.at(INFINITY), 0.5 * 40.0 * 80 / 920 / 24 * 480, 1e-9);
-    EXPECT_EQ(blur_radius(lens, 480, 7).at(INFINITY), 7);
+    EXPECT_NEAR(blur.at(infinity), 0.5 * 40.0 * 80 / 920 / 24 * 480, 1e-9);
+    EXPECT_EQ(blur_radius(lens, 480, 7).at(infinity), 7);
     for (const double focus_mm : {1e-9, 80.0, 1e9}) {
         ThinLens hard = lens;
         hard.focus_mm = focus_mm;
