@@ -35,8 +35,12 @@ using namespace blush;
 struct Variant {
     const char* name;
     bool wrinkles, blood;
+    const char* storage = "compressed";
 };
-constexpr std::array<Variant, 3> variants = {{{"wrinkles", true, false}, {"blood", false, true}, {"both", true, true}}};
+constexpr std::array<Variant, 4> variants = {{{"wrinkles", true, false},
+                                              {"wrinkles, not compressed", true, false, "plain"},
+                                              {"blood", false, true},
+                                              {"both", true, true}}};
 
 struct Times {
     double frame_ms = 0, shade_ms = 0;
@@ -90,6 +94,7 @@ void print(const char* what, const std::vector<double>& without, const std::vect
 }
 
 bool measure(Scene& scene, const Variant& variant, std::size_t rounds) {
+    (void)scene.character.set("wrinkles.storage", variant.storage);
     const auto without = [&] {
         scene.show(false, false);
         return scene.draw();
