@@ -159,6 +159,7 @@ const Sample& nearest(const glm::dvec3& lab, const std::vector<Sample>& among) {
 }
 
 TEST(SkinPublished, MeanColoursOfPeopleAreColoursOfTheModel) {
+    constexpr auto group_count = static_cast<double>(means.size());
     double sum = 0, worst = 0, worst_typology = 0;
     for (const Measured& measured : means) {
         const Sample& best = nearest(measured.lab, samples());
@@ -175,8 +176,8 @@ TEST(SkinPublished, MeanColoursOfPeopleAreColoursOfTheModel) {
         EXPECT_GT(best.skin.hemoglobin, 0.004) << measured.who;
         EXPECT_LT(best.skin.hemoglobin, 0.07) << measured.who;
     }
-    std::printf("mean %.2f, worst %.2f, typology angle %.1f degrees\n", sum / means.size(), worst, worst_typology);
-    EXPECT_LT(sum / means.size(), 1.0);
+    std::printf("mean %.2f, worst %.2f, typology angle %.1f degrees\n", sum / group_count, worst, worst_typology);
+    EXPECT_LT(sum / group_count, 1.0);
     EXPECT_LT(worst, 1.9);
     EXPECT_LT(worst_typology, 5);
 }
@@ -303,7 +304,9 @@ TEST(SkinPublished, MonksTonesBetweenThemAreNearTheModel) {
         const Sample& best = *std::ranges::min_element(samples(), {}, off);
         std::printf("Monk %zu, L* %.1f: melanin %.2f %%, blood %.2f %%, CIEDE2000 %.1f\n", t + 1, lab.x,
                     100 * best.skin.melanin, 100 * best.skin.hemoglobin, off(best));
-        if (t >= 5 && t <= 7) EXPECT_LT(off(best), 3.2);
+        if (t >= 5 && t <= 7) {
+            EXPECT_LT(off(best), 3.2);
+        }
     }
 }
 
