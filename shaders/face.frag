@@ -155,6 +155,9 @@ void main() {
 #endif
 #ifdef HAIR
     cover_samples(base.a);
+    // Nothing is left of it in 8 bits: most of a card.
+    if (alpha.y == 0.0 && base.a < 1.0 / 255.0) discard;
+    if (base.a >= BLUSH_HAIR_CORE_OPACITY) base.a = 1.0;
 #else
     if (base.a < alpha.x) discard;
 #endif
