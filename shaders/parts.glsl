@@ -123,10 +123,11 @@ vec3 strand_shares(vec3 strand, vec3 n, vec3 l, vec3 view) {
     // 1/4 of the light that crosses the strand's width goes each way around it; Fresnel at 1.55 is 0.046.
     float around = 0.25 * forward * cos_l / (cos_difference * cos_difference);
     const float degree = 0.0174533;
-    float first = 0.046 * around * lobe(half_angle, -7.5 * degree, 7.5 * degree);
-    float second = 0.046 * around * lobe(half_angle, 11.0 * degree, 15.0 * degree);
-    // A card stands for strands one behind the other: those turned away from the light are in the shadow of the rest.
-    float before_others = clamp(0.5 + 0.5 * dot(n, l), 0.0, 1.0);
-    return vec3(cos_l * before_others, first * before_others, second * before_others);
+    float first = 0.046 * around * lobe(half_angle, -7.5 * degree, 9.0 * degree);
+    float second = 0.046 * around * lobe(half_angle, 11.0 * degree, 18.0 * degree);
+    // A card stands for strands one behind the other: those turned away from the light are in the shadow of the rest,
+    // and of those that shine half are hidden.
+    float before_others = clamp((dot(n, l) + 0.25) / 1.25, 0.0, 1.0);
+    return before_others * vec3(cos_l, 0.5 * first * before_others, second);
 }
 #endif
