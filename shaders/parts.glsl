@@ -85,10 +85,11 @@ vec2 iris_offset(Eye eye, vec3 place, vec3 n, vec3 view, vec2 uv) {
 #endif
 
 #ifdef MOUTH
-// What is left of the light behind the lips: it falls with the depth, as in a cave whose mouth is about as wide as deep.
+// What is left of the light behind the lips: it falls with the depth behind the foremost tooth by how much of an opening
+// 50 mm wide is seen from there, 1 / (1 + (d / r)^2) of a disc's. Occlusion and shadows do the rest.
 float mouth_visibility(vec3 place) {
     float depth_mm = max(dot(mouth_front.xyz - place, mouth_forward.xyz) * skin.x, 0.0);
-    return mix(1.0, 0.95 / (1.0 + depth_mm * depth_mm / (12.0 * 12.0)), parts.z);
+    return mix(1.0, 1.0 / (1.0 + depth_mm * depth_mm / (25.0 * 25.0)), parts.z);
 }
 #endif
 

@@ -113,10 +113,10 @@ Picture paint_hair_strands(int width) {
                           random.between(0.6, 0.98));
         } else {
             // The deepest first, without gaps; then locks over them, each with a tone of its own.
-            draw_lock(canvas, random, 0.5 * column, 0.42 * column, 40, 0.8);
-            for (int n = 0; n < 5; ++n)
-                draw_lock(canvas, random, column * (0.14 + 0.18 * ((2 * n) % 5) + random.between(-0.04, 0.04)),
-                          0.12 * column, 14, random.between(0.78, 0.985));
+            draw_lock(canvas, random, 0.5 * column, 0.42 * column, 40, 0.66);
+            for (int n = 0; n < 7; ++n)
+                draw_lock(canvas, random, column * (0.11 + 0.13 * ((3 * n) % 7) + random.between(-0.03, 0.03)),
+                          0.085 * column, 9, random.between(0.70, 0.985));
         }
         store(canvas, clump * column, 0, 1, picture);
         store(canvas, clump * column, width, 0.45, picture);
