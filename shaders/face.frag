@@ -266,7 +266,12 @@ void main() {
 #endif
         vec3 radiance = light.radiance;
 #ifdef SHADOWS
+#ifdef HAIR
+        // Strands hide a part of the light from each other and send most of it on.
+        radiance *= mix(0.3, 1.0, lit_share(i, vertex_normal, l));
+#else
         radiance *= lit_share(i, vertex_normal, l);
+#endif
 #endif
         vec3 h = l + view;
 #ifdef HAIR

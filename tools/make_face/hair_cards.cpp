@@ -49,9 +49,9 @@ struct Layer {
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {320, 2.2, 1.3, true, 2.0, 1},         {480, 3.8, 2.0, false, 1.3, 2},
+        {320, 2.2, 1.3, true, 2.0, 1, 1000, 0.5}, {480, 3.8, 2.0, false, 1.3, 2},
         {1100, 2.0, 1.2, false, 0.8, -3, 7, 0.7},  // the hairline: narrow and sparse
-        {560, 5.4, 2.7, false, 1.1, 4},        {480, 7.0, 3.4, false, 1.0, 6},
+        {560, 5.4, 2.7, false, 1.1, 4},           {480, 7.0, 3.4, false, 1.0, 6},
         {240, 8.6, 4.2, false, 0.8, 9},
     };
     HairCards cards;
@@ -68,7 +68,8 @@ HairCards make_hair_cards(const HairStyle& style) {
             direction += 0.05 * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
             const double length_luck = random.unit(), width_luck = random.unit(), roll = random.between(-1, 1),
                          turn_luck = random.between(-1, 1), lift_luck = random.between(0.75, 1.25);
-            const int clump = layer.reach < 100 ? static_cast<int>(random.between(0, sparse_hair_clumps)) : static_cast<int>(random.between(sparse_hair_clumps, hair_clumps));
+            const int clump = layer.reach < 100 ? static_cast<int>(random.between(0, sparse_hair_clumps))
+                                                : static_cast<int>(random.between(sparse_hair_clumps, hair_clumps));
             const bool flipped = random.unit() < 0.5;
             if (direction.y < -0.75) continue;
             Vec3 q = leave_head(skull_centre, glm::normalize(direction));
@@ -87,7 +88,7 @@ HairCards make_hair_cards(const HairStyle& style) {
                                   (1 - 0.45 * bell(glm::distance(q, whorl_place), 30));
             const int segments = top > 0.5 ? 5 : 3;
             // At the hairline nothing lies above that would shade it.
-            const ClumpArea area = hair_clump(clump, layer.shaded && above > 12);
+            const ClumpArea area = hair_clump(clump, layer.shaded && above > 20);
             const double left = flipped ? area.right : area.left, right = flipped ? area.left : area.right;
             const Vec3 root = q;
             const auto first = static_cast<Index>(cards.mesh.positions.size());

@@ -76,7 +76,7 @@ double hemoglobin_factor(const SurfaceTexel& texel, const Vec3& p, const Vec3& h
                0.10 * noise(p / 0.8 + Vec3(5, 1, 8));
     const double cheek = bell(half, {40, -34, 64}, {18, 16, 24}), tip = bell(half, {0, -37, 112}, {10, 9, 11}),
                  wing = bell(half, {14, -41, 97}, {7, 8, 11});
-    f += 1.25 * cheek + 1.35 * tip + 1.30 * wing;
+    f += 1.6 * cheek + 1.6 * tip + 1.5 * wing;
     f += 0.70 * bell(half, {0, -99, 88}, {13, 9, 16}) + 0.35 * bell(half, {0, 8, 96}, {9, 8, 10});  // chin, glabella
     f += 0.55 * around_eye(half) + 0.75 * bell(half, {16, -3, 78}, {5, 5, 8});
     f += 0.35 * bell(half, {22, -50, 84}, {4, 9, 12});
@@ -93,10 +93,10 @@ double hemoglobin_factor(const SurfaceTexel& texel, const Vec3& p, const Vec3& h
 }
 
 /// Light skin of the table is darker than people's (L* 62 at the 1 % melanin of Jacques' lightest; measured faces have
-/// 65 to 72), since what the surface reflects is not in it, and less yellow (b* 11 to 14; measured 15 to 19: Xiao et al.
-/// 2017), since it has no carotene (Alaluf et al. 2002). Photographed skin comes out of it as much brighter, too
+/// 65 to 72), since what the surface reflects is not in it, and less yellow (b* 11 to 14; measured 15 to 19: Xiao et
+/// al. 2017), since it has no carotene (Alaluf et al. 2002). Photographed skin comes out of it as much brighter, too
 /// (docs/appearance.md).
-const glm::vec3 white(1.25F, 1.215F, 1.09F);
+const glm::vec3 white(1.26F, 1.20F, 1.11F);
 
 struct Pigment {
     double melanin = 0, hemoglobin = 0;
@@ -108,14 +108,14 @@ struct Pigment {
 };
 
 /// Red lips are an epidermis without its horny layer over many vessels.
-double lip_hemoglobin(const SkinTone& look) { return 0.040 + 2.2 * look.hemoglobin; }
+double lip_hemoglobin(const SkinTone& look) { return 0.055 + 2.6 * look.hemoglobin; }
 
 /// Turns skin to red lip by a share.
 void redden(Pigment& pigment, const Vec3& p, double lip, const SkinTone& look) {
     const double furrow = 0.5 + 0.5 * noise({p.x / 0.8, p.y / 6.0, 4.5});
     const double red = lip_hemoglobin(look) * (1 + 0.20 * fractal_noise(p / 3.0, 2)) * mix(0.85, 1.1, furrow);
     pigment.hemoglobin = mix(pigment.hemoglobin, red, 0.94 * lip);
-    pigment.melanin += lip * (0.006 + 0.05 * look.melanin);
+    pigment.melanin += lip * (0.002 + 0.05 * look.melanin);
     pigment.shadow *= 1 - 0.10 * lip;
 }
 /// Of closed lips, where they meet.
@@ -127,7 +127,8 @@ void line_mouth(Pigment& pigment, const Vec3& p, double depth, const SkinTone& l
     const double inside = smooth_step(0.02, 0.3, depth);
     pigment.melanin = mix(pigment.melanin, 0.012, inside);
     pigment.hemoglobin = mix(pigment.hemoglobin, 1.5 * lip_hemoglobin(look), inside);
-    pigment.shadow *= mix(mix(seam_shadow(1), 0.62, smooth_step(0.02, 0.12, depth)), 0.16, smooth_step(0.25, 0.95, depth));
+    pigment.shadow *=
+        mix(mix(seam_shadow(1), 0.62, smooth_step(0.02, 0.12, depth)), 0.16, smooth_step(0.25, 0.95, depth));
     pigment.skin = smooth_step(0.3, 0.05, depth);
 }
 
@@ -213,8 +214,8 @@ AppearanceMaps paint_pigments(const SurfaceTexels& texels, const SkinTone& look,
         const glm::vec3 plain = glm::max(table.colour_linear(melanin, hemoglobin), glm::vec3(1e-4F));
         const glm::vec3 skin = other_blend ? own.colour_linear(melanin, hemoglobin) : plain;
         const auto cover = static_cast<float>(pigment.cover);
-        const glm::vec3 colour =
-            glm::mix(skin * white * glm::vec3(pigment.tint * pigment.shadow), glm::vec3(pigment.over), glm::vec3(cover));
+        const glm::vec3 colour = glm::mix(skin * white * glm::vec3(pigment.tint * pigment.shadow),
+                                          glm::vec3(pigment.over), glm::vec3(cover));
         maps.residual.values[k] = colour / plain;
     });
     texels.fill_margins(std::span(maps.melanin.values), 1);

@@ -108,9 +108,18 @@ Picture paint_hair_strands(int width) {
     for (int clump = 0; clump < hair_clumps; ++clump) {
         Canvas canvas(column, width);
         if (clump < sparse_hair_clumps) {
-            for (int n = 0; n < 4; ++n)
-                draw_lock(canvas, random, column * (0.18 + 0.21 * n + random.between(-0.05, 0.05)), 0.10 * column, 4,
-                          random.between(0.6, 0.98));
+            for (int n = 0; n < 9; ++n) {
+                StrandShape s;
+                s.root_x = column * (0.12 + 0.095 * n + random.between(-0.05, 0.05));
+                s.first_y = width * random.between(0, 0.35);
+                s.length = width * random.between(0.6, 0.985) - s.first_y;
+                s.lean = column * random.between(-0.2, 0.2);
+                s.wave = column * random.between(-0.06, 0.06);
+                s.wave_phase = random.between(0, 6.28);
+                s.half_width = width / 512.0 * random.between(1.0, 1.6);
+                s.color = Vec3(random.between(0.7, 1.05));
+                draw(canvas, s, 0.8, 1.0);
+            }
         } else {
             // The deepest first, without gaps; then locks over them, each with a tone of its own.
             draw_lock(canvas, random, 0.5 * column, 0.42 * column, 40, 0.66);
