@@ -51,6 +51,9 @@ struct WrinkleZoneField {
     ScalarMap crease_mm;  ///< distance from the line of the one fold, signed; without texels: no such line
 };
 
+/// Whether a place lies within the radius of any of these zones.
+bool in_a_zone(std::span<const std::string> zones, glm::vec2 canonical_mm);
+
 /// For each of `zones` its place in the layout of `map`. Names that are none of wrinkle_zone_places are everywhere.
 std::vector<WrinkleZoneField> wrinkle_zone_fields(std::span<const std::string> zones, const CanonicalMap& map);
 
