@@ -88,7 +88,7 @@ HairCards make_hair_cards(const HairStyle& style) {
                                   (1 - 0.45 * bell(glm::distance(q, whorl_place), 30));
             const int segments = top > 0.5 ? 5 : 3;
             // At the hairline nothing lies above that would shade it.
-            const ClumpArea area = hair_clump(clump, layer.shaded && above > 20);
+            const ClumpArea area = hair_clump(clump, layer.shaded && above > 34);
             const double left = flipped ? area.right : area.left, right = flipped ? area.left : area.right;
             const Vec3 root = q;
             const auto first = static_cast<Index>(cards.mesh.positions.size());

@@ -128,7 +128,7 @@ Picture paint_hair_strands(int width) {
                           0.085 * column, 9, random.between(0.70, 0.985));
         }
         store(canvas, clump * column, 0, 1, picture);
-        store(canvas, clump * column, width, 0.45, picture);
+        store(canvas, clump * column, width, 0.6, picture);
     }
     return picture;
 }
