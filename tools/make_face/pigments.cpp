@@ -171,6 +171,7 @@ Pigment pigment_at(const SurfaceTexel& texel, const SkinTone& look) {
         case Part::lid_lining:
             line_lid(result, p.y > canthal_y(half.x), depth, look);
             break;
+        case Part::cut:
         case Part::ear:
             result.shadow = 1 - 0.55 * bell(half, ear_centre + Vec3(0, -3, 5), {9, 5, 5});
             break;
