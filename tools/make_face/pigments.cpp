@@ -94,7 +94,7 @@ double hemoglobin_factor(const SurfaceTexel& texel, const Vec3& p, const Vec3& h
 
 /// Light skin of the table is darker than people's (L* 62 at the 1 % melanin of Jacques' lightest; measured faces have
 /// 65 to 72), since what the surface reflects is not in it, and less yellow (b* 11 to 14; measured 15 to 19: Xiao et
-/// al. 2017), since it has no carotene (Alaluf et al. 2002). Photographed skin comes out of it as much brighter, too
+/// al. 2017), since it has no carotene (Alaluf et al. 2002b). Photographed skin comes out of it as much brighter, too
 /// (docs/appearance.md).
 const glm::vec3 white(1.26F, 1.20F, 1.11F);
 
