@@ -89,7 +89,7 @@ void draw_lock(Canvas& canvas, Random& random, double middle, double half_width,
         // The later lie on top and catch the light.
         const double bright = tone * mix(0.66, 1.0, static_cast<double>(n) / strands) * random.between(0.82, 1.15);
         s.color = bright * Vec3(1 + warm, 1, 1 - warm);
-        draw(canvas, s, 0.50, 1.0);
+        draw(canvas, s, 0.60, 1.0);
     }
 }
 
