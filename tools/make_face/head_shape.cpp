@@ -54,7 +54,7 @@ double skull(const Vec3& p) {
     d = join(d, ellipsoid(p, {0, -76, 30}, {41, 32, 46}), 20);            // floor of the mouth
     d = join(d, ellipsoid(p, {0, -95.5, 69.5}, {15.5, 12.5, 14.5}), 16);  // chin
     d = join(d, ellipsoid(p, {0, -46, -36}, {46, 44, 40}), 20);           // nape
-    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);          // behind the concha
+    d = carve(d, ellipsoid(p, {77, -13, -9}, {14, 15, 12}), 7);           // behind the concha
     return d;
 }
 
@@ -85,6 +85,7 @@ double soft_tissue(const Vec3& p, double d) {
         join(cone(p, {0, 18, 84.5}, {23, 18.5, 82.5}, 7.5, 7.5), cone(p, {23, 18.5, 82.5}, {44, 14, 67.5}, 7.5, 7), 4),
         18);                                                                 // brow
     d = carve(d, ellipsoid(p, {33.5, -2.5, 89.5}, {17.5, 11.5, 12.5}), 14);  // orbit
+    d = join(d, ellipsoid(p, {19, 9, 72}, {10, 8, 13}), 8);                  // between brow and inner canthus
     d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);            // infraorbital rim
     return d;
 }
@@ -180,11 +181,35 @@ Vec3 leave_head(const Vec3& origin, const Vec3& direction) {
     return origin + direction * high;
 }
 
+namespace {
+/// An almond under the wing, its long way from the tip back and aside.
+constexpr Vec3 nostril_centre{6.9, -45.2, 96.6}, nostril_inward{0.6, 8.0, -1.5};
+constexpr double nostril_half_length = 6.3, nostril_half_width = 2.9, nostril_height = 4.5;
+
+/// 0 in the almond's middle, 1 on its rim.
+double nostril_reach(const Vec3& half) {
+    const Vec3 along = glm::normalize(Vec3(0.36, -0.22, -0.9)), up = glm::normalize(nostril_inward);
+    const Vec3 across = glm::normalize(glm::cross(along, up));
+    const Vec3 arm = half - nostril_centre;
+    return glm::length(Vec3(glm::dot(arm, along) / nostril_half_length, glm::dot(arm, across) / nostril_half_width,
+                            glm::dot(arm, up) / nostril_height));
+}
+}  // namespace
+
 Vec3 sink_nostril(const Vec3& p) {
-    constexpr Vec3 centre{6.2, -46.8, 97.6}, widths{2.9, 4.0, 4.3}, inward{1.2, 8.0, -3.0};
-    const double reach = glm::length((Vec3(std::abs(p.x), p.y, p.z) - centre) / widths);
-    const Vec3 sunk = inward * smooth_step(1.15, 0.35, reach);
+    const Vec3 sunk = nostril_inward * smooth_step(1.05, 0.6, nostril_reach({std::abs(p.x), p.y, p.z}));
     return p + Vec3(p.x < 0 ? -sunk.x : sunk.x, sunk.y, sunk.z);
+}
+
+double nostril_depth(const Vec3& p) {
+    // What was sunk by a share of the way came from where that share takes it back to.
+    const Vec3 half{std::abs(p.x), p.y, p.z};
+    double share = 0;
+    for (int n = 1; n <= 10; ++n) {
+        const double way = 0.1 * n;
+        if (smooth_step(1.05, 0.6, nostril_reach(half - nostril_inward * way)) >= way) share = way;
+    }
+    return share;
 }
 
 Vec3 project_to_head(const Vec3& start) {
