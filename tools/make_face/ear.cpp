@@ -18,7 +18,7 @@ double front_height(double s, double angle) {
     const double a = std::cos(angle), b = std::sin(angle);
     const double lobe = smooth_step(-0.5, -0.85, b);
     const double rear = smooth_step(0.35, -0.25, a), up = smooth_step(radians(150), radians(100), angle);
-    const double concha = -5.5 * smooth_step(0.58, 0.3, s);
+    const double concha = -3.5 * smooth_step(0.58, 0.3, s);
     // Above, the antihelix parts into two crura with the triangular fossa between them.
     const double antihelix =
         4.6 * rear * std::max(bell(s - mix(0.66, 0.76, up), 0.085), up * bell(s - mix(0.66, 0.5, up), 0.09));
@@ -27,7 +27,7 @@ double front_height(double s, double angle) {
     const double tragus = 6.0 * bell(s - 0.62, 0.17) * bell(angle + radians(24), 0.32);
     const double antitragus = 3.4 * bell(s - 0.62, 0.11) * bell(angle - radians(285), 0.4) +
                               3.4 * bell(s - 0.62, 0.11) * bell(angle + radians(75), 0.4);
-    const double folds = 1 + concha + antihelix + helix + crus + tragus + antitragus - 4 * bell(s, 0.16);
+    const double folds = 1 + concha + antihelix + helix + crus + tragus + antitragus - 3 * bell(s, 0.16);
     const double plain = 1.2 + 2.2 * bell(s - 0.78, 0.3);
     // In front the rim dives into the cheek; only the helix's root and the tragus stay out.
     const double sunk = 11 * smooth_step(mix(0.25, 0.15, lobe), 0.85, a) * smooth_step(0.62, 1, s);

@@ -54,7 +54,7 @@ double skull(const Vec3& p) {
     d = join(d, ellipsoid(p, {0, -76, 30}, {41, 32, 46}), 20);            // floor of the mouth
     d = join(d, ellipsoid(p, {0, -95.5, 69.5}, {15.5, 12.5, 14.5}), 16);  // chin
     d = join(d, ellipsoid(p, {0, -46, -36}, {46, 44, 40}), 20);           // nape
-    d = carve(d, ellipsoid(p, {77, -13, -9}, {14, 15, 12}), 7);           // behind the concha
+    d = carve(d, ellipsoid(p, {77, -11, -5}, {14.5, 18, 14}), 7);           // behind the concha
     return d;
 }
 
