@@ -21,7 +21,13 @@ struct OrbitCamera {
     Camera camera(float aspect) const;
 };
 
-/// Frames `bounds` from the front with a margin. Empty or non-finite bounds give a camera that looks at the origin.
-OrbitCamera frame_head(const Bounds& bounds, float aspect);
+/// What a portrait shows of `bounds`: the uppermost 290 mm, 270 mm wide about the middle. A head with its hair and the
+/// neck is within (head height 225 mm in the mean: Farkas 1994); shoulders and chest of a bust are not.
+/// millimetres_a_unit: FaceScale's; what is not finite or not above 0 gives `bounds` back.
+Bounds portrait(const Bounds& bounds, double millimetres_a_unit);
+
+/// Frames the portrait of `bounds` from the front with a margin. Empty or non-finite bounds give a camera that looks at
+/// the origin.
+OrbitCamera frame_head(const Bounds& bounds, double millimetres_a_unit, float aspect);
 
 }  // namespace blush

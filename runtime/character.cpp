@@ -92,6 +92,7 @@ Result<Character> Character::create(const Device& device, Face face, const std::
     state->bounds = moving_bounds(state->face);
     state->scale = face_scale(state->face);
     find_skin_parts(*state);
+    state->eye_sockets = find_eye_sockets(state->face, state->material_kind);
     state->target_needs_turned_normals = targets_that_move(
         state->face, [](const Primitive& primitive) { return primitive.normal_source == NormalSource::recomputed; });
     state->target_moves_normals = targets_that_move(
@@ -139,7 +140,9 @@ void Character::set_occlusion(std::optional<OcclusionSet> occlusion) {
     state_->own<OcclusionBuffer>() = {};
 }
 
-OrbitCamera Character::framing(float aspect) const { return frame_head(state_->bounds, aspect); }
+OrbitCamera Character::framing(float aspect) const {
+    return frame_head(state_->bounds, state_->scale.millimetres_a_unit, aspect);
+}
 
 const FrameReport& Character::draw(const View& view) {
     if (view.width == 0 || view.height == 0) {

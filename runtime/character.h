@@ -62,7 +62,7 @@ public:
     /// none. load() finds the file beside the face's (runtime/occlusion_file.h).
     void set_occlusion(std::optional<OcclusionSet> occlusion);
 
-    /// A camera that frames the face at rest. aspect: width / height.
+    /// A camera that frames the head at rest, and of a bust what lies close to it. aspect: width / height.
     OrbitCamera framing(float aspect) const;
 
     /// Draws one frame into view.framebuffer and restores every GL state that it touched. The report stands until the

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rig/blood_flow.h"
+#include "rig/eye_sockets.h"
 #include "rig/face_scale.h"
 #include "rig/head_and_eyes.h"
 #include "rig/material_kind.h"
@@ -109,6 +110,7 @@ struct CharacterState {
     std::vector<bool> skin_material;          // of each material and, last, the default one
     std::vector<MaterialKind> material_kind;  // the same
     std::vector<SkinPart> skin_parts;         // by node
+    EyeSockets eye_sockets;                   // none where it has no eyeballs
     std::vector<float> target_reach;          // of each target: its longest move of skin at weight 1, mesh units
     FaceScale scale;                          // as the face itself tells
     double millimetres_a_unit = 1;            // that, or as the settings want it

@@ -36,8 +36,6 @@ constexpr std::array<Setting, 5> settings = {{
 
 struct DepthOfField {
     gl::Program circles, circles_multisampled, tiles, gather;
-    bool eyes_known = false;
-    std::vector<SkinPart> eyes;  // by node; bounds in the mesh at rest
     BlurRadius blur;
     int tile_pixels = 1;
     ResourceId from{}, radius{}, in_front{}, to{};
@@ -47,41 +45,20 @@ double number(const CharacterState& state, std::string_view setting) {
     return state.settings.number(depth_of_field_effect.name, setting);
 }
 
-void find_eyes(const Face& face, DepthOfField& own) {
-    const std::vector<MaterialKind> kinds = material_kinds(face);
-    for (std::size_t n = 0; n < face.nodes.size(); ++n) {
-        if (face.nodes[n].mesh < 0) continue;
-        const Mesh& mesh = face.meshes[static_cast<std::size_t>(face.nodes[n].mesh)];
-        for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
-            const Primitive& primitive = face.primitives[mesh.first_primitive + p];
-            const std::size_t material =
-                primitive.material < 0 ? face.materials.size() : static_cast<std::size_t>(primitive.material);
-            if (kinds[material] != MaterialKind::eye || primitive.vertex_count == 0) continue;
-            Bounds bounds;
-            for (std::uint32_t v = 0; v < primitive.vertex_count; ++v) {
-                bounds.add(face.positions[primitive.first_vertex + v]);
-            }
-            own.eyes.push_back({n, bounds});
-        }
-    }
-    own.eyes_known = true;
-}
-
 /// Distance along the camera's axis of the corneas; without eyes, of the face's middle.
 double focus_on_eyes_mm(CharacterState& state) {
-    DepthOfField& own = state.own<DepthOfField>();
-    if (!own.eyes_known) find_eyes(state.face, own);
     const auto depth = [&state](const glm::vec3& place_world) {
         const glm::vec4 view = state.view->camera.view_from_world * glm::vec4(place_world, 1);
         return static_cast<double>(-view.z) * state.millimetres_a_unit;
     };
-    if (own.eyes.empty()) return depth(state.bounds.empty() ? glm::vec3(0) : state.bounds.centre());
+    const std::vector<Eyeball>& eyes = state.eye_sockets.eyes;
+    if (eyes.empty()) return depth(state.bounds.empty() ? glm::vec3(0) : state.bounds.centre());
     constexpr double cornea_before_centre_mm = 12;  // half of an adult's eyeball (Bekerman et al. 2014)
     double sum = 0;
-    for (const SkinPart& eye : own.eyes) {
-        sum += depth(glm::vec3(state.world_from_node[eye.node] * glm::vec4(eye.bounds.centre(), 1)));
+    for (const Eyeball& eye : eyes) {
+        sum += depth(glm::vec3(state.world_from_node[eye.node] * glm::vec4(eye.centre, 1)));
     }
-    return sum / static_cast<double>(own.eyes.size()) - cornea_before_centre_mm;
+    return sum / static_cast<double>(eyes.size()) - cornea_before_centre_mm;
 }
 
 BlurRadius find_blur(CharacterState& state) {

@@ -40,7 +40,6 @@ constexpr std::array<Setting, 6> settings = {{
 
 struct Parts {
     bool known = false;
-    EyeSockets sockets;
     bool cornea_of_its_own = false;  // before an iris that lies deep already
     std::size_t mouth_node = 0;
     std::optional<glm::vec3> mouth_front;  // of the foremost tooth, mesh units
@@ -51,7 +50,6 @@ Parts& parts_of(CharacterState& state) {
     if (own.known) return own;
     own.known = true;
     const Face& face = state.face;
-    own.sockets = find_eye_sockets(face, state.material_kind);
     own.cornea_of_its_own = std::ranges::any_of(
         face.materials, [](const Material& material) { return material.name.find("ornea") != std::string::npos; });
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
@@ -134,7 +132,7 @@ void write_parts(CharacterState& state, shared::FrameBlock& block) {
         block.mouth_front = world * glm::vec4(*own.mouth_front, 1);
         block.mouth_forward = glm::vec4(length > 0 ? forward / length : glm::vec3(0, 0, 1), 0);
     }
-    const EyeSockets& sockets = own.sockets;
+    const EyeSockets& sockets = state.eye_sockets;
     if (sockets.eyes.size() != 2) return;
     block.eye_data = {1, static_cast<int>(sockets.eyes[0].pole), static_cast<int>(sockets.eyes[1].pole),
                       sockets.lids.size() == 2 ? 1 : 0};

@@ -8,6 +8,7 @@
 
 #include "rig/colour_difference.h"
 #include "runtime/appearance_file.h"
+#include "runtime/appearance_gpu.h"
 #include "runtime/appearance_probe.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/signed_texture.h"
@@ -203,6 +204,31 @@ TEST_F(AppearanceFrames, CostNothingAtRestAndSayWhy) {
     EXPECT_EQ(report_of(report, "blood").reason,
               "the blood is as it is at rest: the skin has the colour of its texture");
     for (const PassReport& pass : report.passes) EXPECT_NE(pass.name, "blend blood");
+    constexpr std::uint32_t bits = shade_wrinkles | shade_wrinkle_differences | shade_blood | shade_pigment_colour;
+    for (const auto& [permutation, program] : made.state().model.programs) EXPECT_EQ(permutation & bits, 0U);
+    EXPECT_FALSE(made.state().own<WrinkleTextures>().masks) << "nothing is uploaded for it either";
+    EXPECT_FALSE(made.state().own<BloodTextures>().pigments);
+
+    made.set(*made.control("anger"), 1);
+    test::draw(made, offscreen);
+    std::uint32_t used = 0;
+    for (const auto& [permutation, program] : made.state().model.programs) used |= permutation & bits;
+    EXPECT_EQ(used, shade_wrinkles | shade_blood);
+    EXPECT_EQ(std::ranges::count(made.state().report.passes, "blend blood", &PassReport::name), 1);
+    // Back at zero the passes are those of a face without maps.
+    made.set(*made.control("anger"), 0);
+    test::draw(made, offscreen);
+    Character bare = make_character(expressive_face());
+    bare.set(*bare.control("anger"), 1);
+    test::draw(bare, offscreen);
+    bare.set(*bare.control("anger"), 0);
+    test::draw(bare, offscreen);
+    const auto names = [](Character& of) {
+        std::vector<std::string_view> result;
+        for (const PassReport& pass : of.state().report.passes) result.push_back(pass.name);
+        return result;
+    };
+    EXPECT_EQ(names(made), names(bare));
 }
 
 TEST_F(AppearanceFrames, ChangeThePictureWhenTheyAct) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "runtime/character_state.h"
 #include "tests/gl_fixture.h"
@@ -30,6 +31,49 @@ const PassReport* pass_of(const FrameReport& report, std::string_view name) {
 }
 
 class Frames : public test::GlTest {};
+
+// --- framing
+// -----------------------------------------------------------------------
+
+/// Of a place in a square picture, from -1 to 1.
+glm::vec2 seen_at(const OrbitCamera& orbit, glm::vec3 place) {
+    const Camera camera = orbit.camera(1);
+    const glm::vec4 clip = camera.clip_from_view * camera.view_from_world * glm::vec4(place, 1);
+    return glm::vec2(clip) / clip.w;
+}
+
+TEST(Framing, ABustIsFramedByItsHeadInAnyUnit) {
+    for (const float unit : {1.0F, 0.001F, 30.0F}) {
+        const Bounds bust{unit * glm::vec3(-220, -420, -130), unit * glm::vec3(220, 100, 110)};
+        const OrbitCamera orbit = frame_head(bust, 1.0 / static_cast<double>(unit), 1);
+        const glm::vec2 crown = seen_at(orbit, unit * glm::vec3(0, 100, 0));
+        const glm::vec2 chin = seen_at(orbit, unit * glm::vec3(0, -125, 0));
+        EXPECT_LT(crown.y, 0.95F);
+        EXPECT_GT(crown.y - chin.y, 1.2F) << "a head fills at least six tenths of the height";
+        EXPECT_LT(seen_at(orbit, unit * glm::vec3(0, -420, 0)).y, -1.2F);
+        // Both planes leave the whole bust in.
+        const Camera camera = orbit.camera(1);
+        for (const glm::vec3 corner : {bust.low, bust.high}) {
+            const glm::vec4 clip = camera.clip_from_view * camera.view_from_world * glm::vec4(corner, 1);
+            EXPECT_LE(std::abs(clip.z), clip.w);
+        }
+    }
+}
+
+TEST(Framing, AHeadIsFramedWholeAndNothingIsStillACamera) {
+    const Bounds head{glm::vec3(-80, -140, -100), glm::vec3(80, 120, 100)};
+    const OrbitCamera orbit = frame_head(head, 1, 1);
+    EXPECT_EQ(orbit.target_world, head.centre());
+    for (const glm::vec3 corner : {head.low, head.high}) {
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(seen_at(orbit, corner)), glm::vec2(1))));
+    }
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const Bounds& bounds : {Bounds{}, Bounds{glm::vec3(-infinity), glm::vec3(infinity)}}) {
+        const OrbitCamera home = frame_head(bounds, 1, 1);
+        EXPECT_TRUE(std::isfinite(home.distance) && home.distance > 0);
+    }
+    EXPECT_EQ(frame_head(head, 0, 1).target_world, head.centre()) << "without a scale everything is framed";
+}
 
 // --- promise: an exact omission changes no byte
 // -----------------------------------------------------------------------

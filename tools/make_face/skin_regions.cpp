@@ -26,7 +26,7 @@ bool before_mouth(const Vec3& p) { return p.z > 60 && p.y < -50 && p.y > -90; }
 
 }  // namespace
 
-double lip_cover(const Vec3& p) { return before_mouth(p) ? smooth_step(-0.55, 0.65, inside_lip(p)) : 0; }
+double lip_cover(const Vec3& p) { return before_mouth(p) ? smooth_step(-1.1, 1.2, inside_lip(p)) : 0; }
 
 double lip_border(const Vec3& p) {
     return before_mouth(p) ? bell(inside_lip(p) + 1.5, 1.1) * smooth_step(mouth_corner_x + 2, 16, std::abs(p.x)) : 0;
