@@ -30,7 +30,8 @@ double front_height(double s, double angle) {
     const double folds = 1 + concha + antihelix + helix + crus + tragus + antitragus - 3 * bell(s, 0.16);
     const double plain = 1.2 + 2.2 * bell(s - 0.78, 0.3);
     // In front the rim dives into the cheek; only the helix's root and the tragus stay out.
-    const double sunk = 11 * smooth_step(mix(0.25, 0.15, lobe), 0.85, a) * smooth_step(0.62, 1, s);
+    const double sunk = 11 * smooth_step(mix(0.25, 0.15, lobe), 0.85, a) * smooth_step(0.62, 1, s) *
+                        mix(1, 0.35, smooth_step(-0.7, -0.97, b));
     return mix(folds, s < 0.55 ? folds : plain, lobe) - sunk;
 }
 
