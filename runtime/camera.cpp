@@ -19,7 +19,7 @@ Camera OrbitCamera::camera(float aspect) const {
 }
 
 Bounds portrait(const Bounds& bounds, const FaceScale& scale) {
-    if (bounds.empty() || !scale.by_pupils) return bounds;
+    if (bounds.empty() || scale.is_guess) return bounds;
     const auto units_a_millimetre = static_cast<float>(1 / scale.millimetres_a_unit);
     Bounds shown = bounds;
     shown.low.y = std::max(bounds.low.y, bounds.high.y - 270 * units_a_millimetre);
