@@ -2,13 +2,15 @@
 // Lambert and GGX surface (glTF 2.0, appendix B: metallic-roughness).
 #include "shared.glsl"
 
-in vec3 position_world;
-in vec3 normal_world;
-in vec4 tangent_world;
-in vec2 texture_uv[6];
-in vec2 layout_uv;
+// At the centroid of the samples that are covered: the middle of a pixel may lie beyond a triangle's edge, and where that
+// is seen from its side, far beyond what the surface has there.
+centroid in vec3 position_world;
+centroid in vec3 normal_world;
+centroid in vec4 tangent_world;
+centroid in vec2 texture_uv[6];
+centroid in vec2 layout_uv;
 #ifdef AMBIENT_OCCLUSION
-in vec4 ambient_visibility;
+centroid in vec4 ambient_visibility;
 #endif
 
 // Permutations: a map that the material lacks is not fetched (BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP,
@@ -103,20 +105,20 @@ struct Arriving {
     vec3 radiance;   // of a white surface that faces it
 };
 
-Arriving arriving(int i) {
+Arriving arriving(Light light) {
     Arriving result;
-    result.direction = lights[i].position_world.xyz;
-    result.radiance = lights[i].radiance_linear.rgb;
-    if (lights[i].position_world.w != 0.0) {
-        vec3 to = lights[i].position_world.xyz - position_world;
+    result.direction = light.position_world.xyz;
+    result.radiance = light.radiance_linear.rgb;
+    if (light.position_world.w != 0.0) {
+        vec3 to = light.position_world.xyz - position_world;
         // A light on the surface would be infinitely bright there; a thousandth of its own distance is near enough.
-        float distance2 = max(dot(to, to), 1e-6 * lights[i].radiance_linear.w);
+        float distance2 = max(dot(to, to), 1e-6 * light.radiance_linear.w);
         result.direction = unit_or(to, vec3(0.0, 1.0, 0.0));
-        result.radiance *= lights[i].radiance_linear.w / max(distance2, 1e-30);
+        result.radiance *= light.radiance_linear.w / max(distance2, 1e-30);
     }
-    if (lights[i].cone_world.w > -1.5) {
-        result.radiance *= smoothstep(lights[i].cone_world.w, max(lights[i].shadow.y, lights[i].cone_world.w + 1e-4),
-                                      dot(-result.direction, lights[i].cone_world.xyz));
+    if (light.cone_world.w > -1.5) {
+        result.radiance *= smoothstep(light.cone_world.w, max(light.shadow.y, light.cone_world.w + 1e-4),
+                                      dot(-result.direction, light.cone_world.xyz));
     }
     return result;
 }
@@ -156,6 +158,9 @@ void main() {
 #endif
 #ifdef HAIR
     cover_samples(base.a);
+    // Nothing is left of it in 8 bits: most of a card.
+    if (alpha.y == 0.0 && base.a < 1.0 / 255.0) discard;
+    if (base.a >= BLUSH_HAIR_CORE_OPACITY) base.a = 1.0;
 #else
     if (base.a < alpha.x) discard;
 #endif
@@ -203,7 +208,6 @@ void main() {
 #endif
 #ifdef AMBIENT_OCCLUSION
     // What a vertex's own normal loses, its pixels lose, whatever their normals: the detail of maps stays.
-    // At the edge of a triangle a pixel's middle may lie outside of it, and interpolation beyond what is possible.
     vec4 visible = clamp(ambient_visibility, 0.0, 1.0);
     ambient *= visible.rgb;
     // What hides a place shines as it does itself: with_bounces() in rig/occlusion.cpp.
@@ -222,6 +226,9 @@ void main() {
 #endif
 #ifdef HAIR
     vec3 strand = strand_direction(position_world, texture_uv[0], n);
+    // What the texture has darker than the material's colour lies among other strands.
+    vec3 whole = max(base_color_linear.rgb, vec3(1e-4));
+    float exposed = clamp(dot(base.rgb / whole, vec3(1.0 / 3.0)), 0.0, 1.0);
 #endif
     vec3 entering = vec3(0.0);  // radiance that white would reflect, of the light that is left for the inside
     vec3 surface = vec3(0.0);   // reflected at the surface
@@ -241,29 +248,42 @@ void main() {
 #else
     // Ambient reflection: what stands in the mirror direction, with Schlick's Fresnel damped by roughness.
     vec3 fresnel_view = f0 + (max(vec3(1.0 - roughness) * f90, f0) - f0) * pow(1.0 - min(n_v, 1.0), 5.0);
+#ifdef HAIR
+    // A cylinder mirrors all directions across it, and has passed most of what is left through its own colour.
+    fresnel_view = 0.046 * sqrt(base.rgb);
+#endif
     surface += fresnel_view * ambient_mirrored * occlusion;
     entering += ambient * occlusion;
 #endif
 
     for (int i = 0; i < counts.x; ++i) {
-        Arriving light = arriving(i);
-        vec3 l = light.direction;
+        Light light = lights[i];
+        Arriving arrives = arriving(light);
+        vec3 l = arrives.direction;
         float n_l = dot(n, l);
+#ifdef SHADOWS
+        InMap map = in_map(light, vertex_normal);
+#endif
 #if defined(SKIN) && defined(TRANSLUCENCY)
-        entering += light.radiance * transmitted(i, l, vertex_normal);
+        entering += arrives.radiance * transmitted(light, map, l, vertex_normal);
 #endif
 #ifndef HAIR
         if (n_l <= 0.0) continue;
 #endif
-        vec3 radiance = light.radiance;
+        vec3 radiance = arrives.radiance;
 #ifdef SHADOWS
-        radiance *= lit_share(i, vertex_normal, l);
+#ifdef HAIR
+        // Strands hide a part of the light from each other and send most of it on.
+        radiance *= mix(0.3, 1.0, lit_share(light, map, vertex_normal, l));
+#else
+        radiance *= lit_share(light, map, vertex_normal, l);
+#endif
 #endif
         vec3 h = l + view;
 #ifdef HAIR
         vec3 shares = strand_shares(strand, n, l, view);
         entering += radiance * shares.x;
-        surface += pi * radiance * (shares.y + shares.z * sqrt(base.rgb));
+        surface += pi * radiance * (shares.y * exposed + shares.z * sqrt(base.rgb));
 #elif defined(SKIN) && defined(SKIN_REFLECTION)
         entering += (1.0 - skin_intensity * specular_albedo(n_l, skin_rough).x) * radiance * n_l;
         // radiance is irradiance / pi: Lambert's 1 / pi cancels, the specular term keeps pi.

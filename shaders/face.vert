@@ -7,13 +7,16 @@ layout(location = BLUSH_TANGENT_ATTRIBUTE) in vec4 tangent;
 layout(location = BLUSH_UV0_ATTRIBUTE) in vec2 uv0;
 layout(location = BLUSH_UV1_ATTRIBUTE) in vec2 uv1;
 
-out vec3 position_world;
-out vec3 normal_world;
-out vec4 tangent_world;
-out vec2 layout_uv;      // of the face's own maps
-out vec2 texture_uv[6];  // of each texture of the material, in the order of MaterialBlock
+// The core of hair is drawn twice, the second time where its depth is what the first one left.
+invariant gl_Position;
+
+centroid out vec3 position_world;
+centroid out vec3 normal_world;
+centroid out vec4 tangent_world;
+centroid out vec2 layout_uv;      // of the face's own maps
+centroid out vec2 texture_uv[6];  // of each texture of the material, in the order of MaterialBlock
 #ifdef AMBIENT_OCCLUSION
-out vec4 ambient_visibility;  // rgb: share of the ambient light that arrives; a: share of the open directions
+centroid out vec4 ambient_visibility;  // rgb: share of the ambient light that arrives; a: share of the open directions
 #include "occlusion.glsl"
 #endif
 

@@ -18,6 +18,9 @@
 #define BLUSH_EXPOSURE_CELLS 32
 #define BLUSH_MOST_BLUR_TAPS 81
 
+// Blended hair from this opacity on hides what is behind it, and casts shadows.
+#define BLUSH_HAIR_CORE_OPACITY 0.7
+
 // RGBA masks of wrinkle zones, at most: the paper's two (jimenez-2012, 8.2) and one more.
 #define BLUSH_MOST_WRINKLE_MASKS 3
 // Maps of blood that act at once, at most.

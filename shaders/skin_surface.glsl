@@ -25,13 +25,12 @@ float skin_specular(vec3 n, vec3 h, vec3 view, float roughness) {
 
 #ifdef TRANSLUCENCY
 // Light through thin parts (jimenez-2012, chapter 5): share of the light's radiance that comes out here.
-vec3 transmitted(int i, vec3 l, vec3 vertex_normal) {
+vec3 transmitted(Light light, InMap map, vec3 l, vec3 vertex_normal) {
     // The reversed vertex normal, some 17 degrees early so that it meets what the front reflects (eq. 5.13).
     float back = max(0.3 - dot(vertex_normal, l), 0.0);
-    if (back == 0.0 || lights[i].shadow.x < 0.0) return vec3(0.0);
-    float thickness_mm = depth_inside(i, position_world - vertex_normal * (translucency.y / skin.x),
-                                      translucency.z / skin.x) *
-                         skin.x;
+    if (back == 0.0 || light.shadow.x < 0.0) return vec3(0.0);
+    float thickness_mm =
+        depth_inside(light, map.here - map.along_normal * (translucency.y / skin.x), translucency.z / skin.x) * skin.x;
     // The paper leaves the thickness short by what the point was drawn in towards the light; a slab has it all.
     thickness_mm += translucency.y * max(-dot(vertex_normal, l), 0.0);
     if (!(thickness_mm < translucency.z)) return vec3(0.0);

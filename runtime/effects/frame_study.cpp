@@ -31,6 +31,8 @@ std::shared_ptr<Drawn> make_drawn(const Device& device, const Face& face, double
     auto drawn = std::make_shared<Drawn>(Drawn{*std::move(character), *std::move(offscreen), {}});
     drawn->view = drawn->offscreen.view();
     drawn->view.camera = drawn->character.framing(1).camera(1);
+    drawn->view.camera.clip_from_view[0] *= what.nearness;
+    drawn->view.camera.clip_from_view[1] *= what.nearness;
     drawn->view.lighting = what.lighting;
     return drawn;
 }

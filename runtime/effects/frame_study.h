@@ -14,6 +14,7 @@ struct FrameStudy {
     std::size_t default_value = 0;    ///< of values
     std::string reference_value;      ///< the picture that errors are measured against
     const Lighting* lighting = nullptr;
+    float nearness = 1;  ///< how many times larger than framed: above 1 for what costs by the pixel of skin
 };
 
 /// One study with one character a value, drawn from the front at 192x192 pixels and 4 samples in linear radiance.

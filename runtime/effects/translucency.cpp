@@ -33,7 +33,7 @@ Need need(const CharacterState& state) {
 
 std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
     return frame_study(device, face, millimetres_a_unit,
-                       {"translucency.strength", {"1", "0"}, 0, "1", &study_backlight()});
+                       {"translucency.strength", {"1", "0"}, 0, "1", &study_backlight(), 2.5F});
 }
 
 constexpr std::array<HardCase, 1> hard_cases = {{

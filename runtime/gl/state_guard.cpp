@@ -102,6 +102,7 @@ StateGuard::StateGuard() {
     cull_face_ = integer(GL_CULL_FACE_MODE);
     front_face_ = integer(GL_FRONT_FACE);
     clamp_read_ = integer(GL_CLAMP_READ_COLOR);
+    provoking_vertex_ = integer(GL_PROVOKING_VERTEX);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
     stencil_front_ = {integer(GL_STENCIL_FUNC),
                       integer(GL_STENCIL_REF),
@@ -140,6 +141,8 @@ StateGuard::StateGuard() {
     glStencilMask(~0U);
     glDepthRange(0, 1);
     glClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);
+    // Also the vertex that llvmpipe interpolates from, and so how the last bit rounds.
+    glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
     for (GLuint unit = 0; unit < texture_units; ++unit) glBindSampler(unit, 0);
 }
 
@@ -194,6 +197,7 @@ StateGuard::~StateGuard() {
     restore_stencil(GL_BACK, stencil_back_);
     glBlendColor(blend_color_[0], blend_color_[1], blend_color_[2], blend_color_[3]);
     glClampColor(GL_CLAMP_READ_COLOR, enum_of(clamp_read_));
+    glProvokingVertex(enum_of(provoking_vertex_));
 }
 
 }  // namespace blush::gl

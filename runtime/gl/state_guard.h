@@ -67,7 +67,7 @@ private:
     std::array<DrawBuffer, draw_buffers> draw_buffers_{};
     std::array<GLint, 5> pack_{}, unpack_{};
     std::array<GLint, 2> clip_control_{}, polygon_mode_{};
-    GLint depth_function_ = 0, cull_face_ = 0, front_face_ = 0, clamp_read_ = 0;
+    GLint depth_function_ = 0, cull_face_ = 0, front_face_ = 0, clamp_read_ = 0, provoking_vertex_ = 0;
     Stencil stencil_front_, stencil_back_;
     std::array<GLfloat, 4> blend_color_{};
     GLboolean depth_mask_ = GL_TRUE;

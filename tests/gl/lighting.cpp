@@ -236,6 +236,44 @@ TEST_F(Lights, ASurfaceInTheLightHasNoFreckles) {
     }
 }
 
+TEST_F(Lights, AnOutlineIsLitAsItsSurfaceAndNotAsWhatLiesBeyondIt) {
+    // A round column, lit from behind, whose outermost sides are turned away from the camera but for a degree and a
+    // half: a sample meets them where the pixel's middle lies sides farther on. Sheared, so that all samples meet them
+    // somewhere.
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    const Lighting behind = from_direction({0, 0, -1}, glm::vec3(1));
+    constexpr int sides = 36;
+    constexpr float radius = 0.02F, shear = 0.23F, half_height = 0.025F, turn_radians = 1.5F * 6.2831853F / 360;
+    Face face;
+    for (int k = 0; k < sides; ++k) {
+        const auto at = [&](int corner, float y) {
+            const float angle = (static_cast<float>(k + corner) - 0.5F) * 6.2831853F / sides - turn_radians;
+            return glm::vec3(std::sin(angle), y, std::cos(angle)) * glm::vec3(radius, 1, radius) +
+                   glm::vec3(shear * y, 0, 0);
+        };
+        add_quad(face, at(0, -half_height), at(1, -half_height), at(1, half_height), at(0, half_height));
+        for (std::size_t v = face.normals.size() - 4; v < face.normals.size(); ++v) {
+            const glm::vec3 p = face.positions[v] - glm::vec3(shear * face.positions[v].y, 0, 0);
+            face.normals[v] = glm::normalize(glm::vec3(p.x, 0, p.z));
+        }
+    }
+    // A side that is seen has normals up to half a side beyond a right angle.
+    const float most = std::sin((0.5F * 360 / sides + 1.7F) / 57.29578F);
+    for (const std::uint32_t samples : {1U, 2U, 4U}) {
+        Character character = plain(finished(face));
+        ASSERT_TRUE(character.set("shadows.method", "off"));
+        View view = front_view(offscreen);
+        view.lighting = &behind;
+        view.samples = samples;
+        float brightest = 0;
+        const Image image = test::draw(character, offscreen, view);
+        for (std::uint32_t y = 0; y < side; ++y) {
+            for (std::uint32_t x = 0; x < side; ++x) brightest = std::max(brightest, pixel(image, x, y).r);
+        }
+        EXPECT_LE(brightest, most) << samples << " samples";
+    }
+}
+
 TEST_F(Lights, AShadowFallsWhereTheLightIsBlocked) {
     // A plate 10 mm above the front's right half; light from straight in front of a little to the left.
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);

@@ -45,5 +45,8 @@ double lower_lid_height(double x);
 double canthal_y(double x);
 /// y of the line where the closed lips meet, at |x| up to the mouth's corner.
 double lip_line_y(double x);
+/// Height of the red of the upper and lower lip over and under that line (both positive).
+double upper_lip_height(double x);
+double lower_lip_height(double x);
 
 }  // namespace blush::make_face

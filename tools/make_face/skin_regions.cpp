@@ -28,7 +28,7 @@ bool before_mouth(const Vec3& p) { return p.z > 60 && p.y < -50 && p.y > -90; }
 
 }  // namespace
 
-double lip_cover(const Vec3& p) { return before_mouth(p) ? smooth_step(-0.55, 0.65, inside_lip(p)) : 0; }
+double lip_cover(const Vec3& p) { return before_mouth(p) ? smooth_step(-1.1, 1.2, inside_lip(p)) : 0; }
 
 double lip_border(const Vec3& p) {
     return before_mouth(p) ? bell(inside_lip(p) + 1.5, 1.1) * smooth_step(mouth_corner_x + 2, 16, std::abs(p.x)) : 0;
@@ -51,7 +51,7 @@ double lid_rim(const Vec3& p, bool upper) {
 double around_eye(const Vec3& half) { return bell(half, eye_centre + Vec3(0, 0, 10), {20, 13, 18}); }
 
 double nostril(const SurfaceTexel& texel) {
-    return bell(texel.half(), {6.6, -45, 99.5}, {4.2, 4.0, 6.5}) *
+    return bell(texel.half(), {6.6, -45, 99.5}, {3.6, 3.6, 5.5}) *
            smooth_step(0.35, -0.15, static_cast<double>(texel.normal.z));
 }
 
