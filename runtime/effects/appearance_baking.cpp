@@ -41,7 +41,7 @@ constexpr std::array<Setting, 4> settings = {{
 Need need(const CharacterState& state) {
     Need need{.on = false, .reason = "frames bake nothing, and the face has no maps to draw (blush bake appearance)"};
     if (state.appearance.pigments) need.reason = "the face's pigments are baked already";
-    if (!state.facts.has_skin) need.reason = "there is nothing to bake: the face has no skin";
+    if (state.skin.parts.empty()) need.reason = "there is nothing to bake: the face has no skin";
     need.can_be_forced = false;
     return need;
 }

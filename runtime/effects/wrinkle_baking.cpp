@@ -37,7 +37,7 @@ constexpr std::array<Setting, 5> settings = {{
 Need need(const CharacterState& state) {
     Need need{.on = false, .reason = "frames bake nothing, and the face has no maps to draw (blush bake wrinkles)"};
     if (state.appearance.wrinkles) need.reason = "the face's wrinkles are baked already";
-    if (!state.facts.has_skin) need.reason = "there is nothing to bake: the face has no skin";
+    if (state.skin.parts.empty()) need.reason = "there is nothing to bake: the face has no skin";
     need.can_be_forced = false;
     return need;
 }
