@@ -7,9 +7,12 @@ layout(binding = BLUSH_SPECULAR_ALBEDO_UNIT) uniform sampler2D specular_albedo_m
 // Reflectance at normal incidence of an index of refraction of 1.4 (d'Eon and Luebke 2007). rig/skin_reflectance.h.
 const float skin_f0 = 0.028;
 
+// Column of a cosine in a table whose first and last columns are 0 and 1.
+float table_column(float cosine, float columns) { return (clamp(cosine, 0.0, 1.0) * (columns - 1.0) + 0.5) / columns; }
+
 // x: share of the light from a direction (or towards a view) that the surface reflects; y: its mean over directions.
 vec2 specular_albedo(float n_l, float roughness) {
-    return texture(specular_albedo_map, vec2(clamp(n_l, 0.0, 1.0), roughness)).rg;
+    return texture(specular_albedo_map, vec2(table_column(n_l, float(BLUSH_SPECULAR_ALBEDO_COLUMNS)), roughness)).rg;
 }
 
 // Of unit vectors n and view, and h = l + view as it is.
@@ -17,7 +20,8 @@ float skin_specular(vec3 n, vec3 h, vec3 view, float roughness) {
     float h2 = dot(h, h);
     if (h2 < 1e-8) return 0.0;  // light from straight behind the surface's edge
     vec3 unit_h = h * inversesqrt(h2);
-    float stored = 2.0 * texture(beckmann_map, vec2(clamp(dot(n, unit_h), 0.0, 1.0), roughness)).r;
+    float column = table_column(dot(n, unit_h), float(BLUSH_BECKMANN_TABLE_SIDE));
+    float stored = 2.0 * texture(beckmann_map, vec2(column, roughness)).r;
     float distribution = pow(stored, 10.0);
     float fresnel = skin_f0 + (1.0 - skin_f0) * pow(1.0 - clamp(dot(view, unit_h), 0.0, 1.0), 5.0);
     return distribution * fresnel / (3.14159265358979 * h2);

@@ -163,7 +163,7 @@ TEST_F(Lights, TheSurfaceReflectsAndLetsInWhatItsTwinSays) {
     const glm::dvec3 eye(0.3, 0, 0.4);
     for (const double roughness : {0.2, 0.45}) {
         for (const double intensity : {0.4, 1.0}) {
-            for (const glm::vec3 towards : {glm::vec3(0, 0, 1), glm::vec3(-0.5F, 0.1F, 0.5F),
+            for (const glm::vec3 towards : {glm::vec3(0, 0, 1), glm::vec3(-0.6F, 0, 0.8F), glm::vec3(-0.5F, 0.1F, 0.5F),
                                             glm::vec3(0.7F, 0.3F, 0.4F), glm::vec3(-0.95F, 0, 0.3F)}) {
                 const Lighting lighting = from_direction(towards, glm::vec3(1));
                 Character character = plain(finished(face));
