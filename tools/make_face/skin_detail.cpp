@@ -121,7 +121,8 @@ Picture paint_roughness(const SurfaceTexels& texels) {
     }
     texels.for_each([&](int x, int y, const SurfaceTexel& texel, std::size_t) {
         const Vec3 p = texel.place(), half = texel.half();
-        double roughness = mix(dry, shining, oily(half)) + 0.05 * fractal_noise(p / 2.2, 2) - 0.03 * around_eye(half);
+        double roughness = mix(dry, shining, oily(half)) + 0.05 * fractal_noise(p / 2.2, 2) - 0.03 * around_eye(half) +
+                           0.2 * temple(half);
         double seen = 1;
         if (texel.part == Part::skin) {
             roughness = mix(roughness, lips + 0.05 * noise(p / 1.5), 0.9 * lip_cover(p));
@@ -152,8 +153,7 @@ Picture paint_specular(const SurfaceTexels& texels) {
     Picture picture(texels.side(), texels.side(), 4, 255);
     texels.for_each([&](int x, int y, const SurfaceTexel& texel, std::size_t) {
         const Vec3 p = texel.place(), half = texel.half();
-        double intensity = mix(0.38, 0.85, oily(half)) * (1 - 0.5 * bell(half, {58, 2, 46}, {16, 26, 30})) +
-                           0.08 * fractal_noise(p / 3.0, 2);
+        double intensity = mix(0.38, 0.85, oily(half)) * (1 - 0.5 * temple(half)) + 0.08 * fractal_noise(p / 3.0, 2);
         if (texel.part == Part::skin) {
             intensity = mix(intensity, 0.9, lip_cover(p));
             intensity = mix(intensity, 0.05, std::max(hair_paint(p), 0.5 * brow_cover(p)));
