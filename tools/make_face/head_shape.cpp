@@ -71,8 +71,8 @@ double neck_and_shoulders(const Vec3& p, double d) {
     n = join(n, chest, 34);
     n = join(n, cone(p, {47, -48, -22}, {34, -108, -14}, 6, 6), 22);  // sternocleidomastoid
     n = join(n, cone(p, {34, -108, -14}, {13, -165, 0}, 6, 4), 24);
-    n = carve(n, ellipsoid(p, {0, -162, 17}, {9, 9, 11}), 12);    // sternal notch
-    n = carve(n, ellipsoid(p, {56, -152, -6}, {22, 6, 12}), 18);  // over the clavicle
+    n = carve(n, ellipsoid(p, {0, -162, 17}, {7, 8, 9}), 13);    // sternal notch
+    n = carve(n, ellipsoid(p, {56, -152, -6}, {20, 5, 9}), 18);  // over the clavicle
     return join(d, n, 18);
 }
 
