@@ -73,9 +73,10 @@ vec3 shading_normal(vec3 view_world) {
     bent = m.xy != vec2(0.0);
 #endif
 #ifdef WRINKLES
-    float strength = wrinkle_strength(layout_uv);
+    vec2 fold_uv = wrinkle_uv(layout_uv);
+    float strength = wrinkle_strength(fold_uv);
     if (strength != 0.0) {
-        m = wrinkled(m, layout_uv, strength);
+        m = wrinkled(m, fold_uv, strength);
         bent = true;
     }
 #endif

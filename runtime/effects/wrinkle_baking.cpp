@@ -9,7 +9,8 @@
 namespace blush {
 namespace {
 
-constexpr std::array<Setting, 5> settings = {{
+constexpr std::array<std::string_view, 2> parts = {"folds", "whole"};
+constexpr std::array<Setting, 6> settings = {{
     {.name = "size",
      .meaning = "texels of a side of the wrinkle map",
      .lowest = 16,
@@ -31,6 +32,10 @@ constexpr std::array<Setting, 5> settings = {{
      .lowest = 0,
      .highest = 4294967295.0,
      .default_number = 1},
+    {"layout",
+     "folds: maps of the part of the texture layout where skin folds, so that their texels are small there; whole: of "
+     "all of it",
+     parts},
 }};
 
 Need need(const CharacterState& state) {

@@ -103,6 +103,45 @@ TEST_F(Appearance, WrinklesEqualTheCpu) {
     }
 }
 
+// Maps of a part of the layout: the same folds within it, and none outside.
+TEST_F(Appearance, WrinklesOfAPartOfTheLayoutEqualTheCpu) {
+    const Face face = expressive_face();
+    const Rig rig(face);
+    WrinkleSet set = waves(rig, 0.8F, 1);
+    set.part = {{0.25F, 0.5F}, {0.75F, 0.9F}};
+    for (ScalarMap& mask : set.masks) {
+        for (std::uint32_t i = 0; i < 64; ++i) {
+            if (i % 8 == 0 || i % 8 == 7 || i / 8 == 0 || i / 8 == 7) mask.values[i] = 0;
+        }
+    }
+    const auto probe = AppearanceProbe::create(device_, face, {set, std::nullopt});
+    ASSERT_NE(probe, nullptr);
+    ASSERT_TRUE(probe->character().set("wrinkles.storage", "half_float"));
+    EXPECT_LT(probe->normal_error(0.7F).worst, 0.4) << "degrees";
+    const std::vector<glm::vec3> normals = probe->normals(0.7F);
+    std::size_t bent = 0;
+    for (std::uint32_t i = 0; i < normals.size(); ++i) {
+        const glm::vec2 uv = (glm::vec2(i % AppearanceProbe::side, i / AppearanceProbe::side) + 0.5F) /
+                             static_cast<float>(AppearanceProbe::side);
+        const glm::vec2 in = set.part.within(uv);
+        const bool inside = in.x > 0 && in.x < 1 && in.y > 0 && in.y < 1;
+        if (!inside) {
+            EXPECT_EQ(normals[i], glm::vec3(0, 0, 1)) << i;
+        }
+        bent += normals[i] != glm::vec3(0, 0, 1) ? 1U : 0U;
+    }
+    EXPECT_GT(bent, normals.size() / 10);
+    EXPECT_LT(bent, normals.size() / 5);
+    // The alternative shows the same at full weight.
+    ASSERT_TRUE(probe->character().set("wrinkles.encoding", "differences"));
+    const std::vector<glm::vec3> other = probe->normals(0.7F);
+    for (std::uint32_t i = 0; i < normals.size(); ++i) {
+        if (normals[i] == glm::vec3(0, 0, 1)) {
+            EXPECT_EQ(other[i], normals[i]);
+        }
+    }
+}
+
 TEST_F(Appearance, DifferencesAreDerivativesAtFullWeight) {
     const auto made = probe();
     ASSERT_TRUE(made->character().set("wrinkles.storage", "half_float"));

@@ -56,7 +56,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
     };
     face.materials[hair] = strands("hair", 1, paint_hair_strands(512));
     face.materials[hair].double_sided = false;  // its strips have triangles for both sides
-    face.materials[brow] = strands("brows", 0.42, paint_brow_strands(128));
+    face.materials[brow] = strands("brows", 0.55, paint_brow_strands(128));
     face.materials[lash] = strands("lashes", 0.08, paint_lash_strands(128));
 
     face.nodes.push_back({.name = "head"});
