@@ -59,7 +59,7 @@ protected:
         view_ = offscreen_.view();
         constexpr float aspect = static_cast<float>(width) / height;
         OrbitCamera camera = character_.framing(aspect);
-        camera.distance *= 0.85F;
+        camera.distance *= 0.8F;
         view_.camera = camera.camera(aspect);
     }
 

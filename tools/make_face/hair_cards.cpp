@@ -49,7 +49,7 @@ struct Layer {
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {320, 2.2, 1.3, true, 2.0, 1, 1000, 0.5}, {480, 3.8, 2.0, false, 1.3, 2},
+        {320, 2.2, 1.3, true, 1.8, 8, 1000, 0.5}, {480, 3.8, 2.0, false, 1.3, 2},
         {1100, 2.0, 1.2, false, 0.8, -3, 7, 0.7},  // the hairline: narrow and sparse
         {560, 5.4, 2.7, false, 1.1, 4},           {480, 7.0, 3.4, false, 1.0, 6},
         {240, 8.6, 4.2, false, 0.8, 9},
@@ -88,7 +88,7 @@ HairCards make_hair_cards(const HairStyle& style) {
                                   (1 - 0.45 * bell(glm::distance(q, whorl_place), 30));
             const int segments = top > 0.5 ? 5 : 3;
             // At the hairline nothing lies above that would shade it.
-            const ClumpArea area = hair_clump(clump, layer.shaded && above > 20);
+            const ClumpArea area = hair_clump(clump, layer.shaded && above > 34);
             const double left = flipped ? area.right : area.left, right = flipped ? area.left : area.right;
             const Vec3 root = q;
             const auto first = static_cast<Index>(cards.mesh.positions.size());
@@ -99,7 +99,7 @@ HairCards make_hair_cards(const HairStyle& style) {
                 const Vec3 beside = glm::cross(way, normal);
                 way = glm::normalize(way + beside * (0.20 * turn_luck));
                 // Hair leaves the scalp at a slant, then lies on what is below it; tips stand off a little.
-                const double off = raised * (0.12 + 0.88 * smooth_step(0, 0.45, t)) + 1.6 * style.lift * t * t * roll;
+                const double off = hair_thickness(q) + raised * (0.12 + 0.88 * smooth_step(0, 0.45, t)) + 1.6 * style.lift * t * t * roll;
                 const Vec3 side = glm::normalize(glm::cross(way, normal) + normal * (0.35 * roll));
                 const double half = half_width * mix(0.85, 1.0, smooth_step(0, 0.3, t)) * mix(1, 0.75, t);
                 const Vec3 p = q + normal * off;

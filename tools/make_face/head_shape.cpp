@@ -49,12 +49,12 @@ double skull(const Vec3& p) {
     d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);            // midface
     d = join(d, ellipsoid(p, {52, 2, 20}, {13.5, 28, 30}), 18);           // temple
     d = join(d, ellipsoid(p, {40.5, -21, 50}, {17.5, 13, 22.5}), 20);     // zygomatic bone
-    d = join(d, cone(p, {38.5, -67, 8}, {9, -95, 65}, 13, 11.5), 20);     // body of the mandible
-    d = join(d, cone(p, {46, -30, 0}, {38.5, -66, 8}, 12, 12.5), 20);     // its ramus
+    d = join(d, cone(p, {38, -67, 8}, {9, -95, 65}, 12.5, 11.5), 20);     // body of the mandible
+    d = join(d, cone(p, {46, -30, 0}, {38, -66, 8}, 12, 12), 20);         // its ramus
     d = join(d, ellipsoid(p, {0, -76, 30}, {41, 32, 46}), 20);            // floor of the mouth
     d = join(d, ellipsoid(p, {0, -95.5, 69.5}, {15.5, 12.5, 14.5}), 16);  // chin
     d = join(d, ellipsoid(p, {0, -46, -36}, {46, 44, 40}), 20);           // nape
-    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);          // behind the concha
+    d = carve(d, ellipsoid(p, {77, -11, -5}, {14.5, 18, 14}), 7);         // behind the concha
     return d;
 }
 
@@ -85,6 +85,7 @@ double soft_tissue(const Vec3& p, double d) {
         join(cone(p, {0, 18, 84.5}, {23, 18.5, 82.5}, 7.5, 7.5), cone(p, {23, 18.5, 82.5}, {44, 14, 67.5}, 7.5, 7), 4),
         18);                                                                 // brow
     d = carve(d, ellipsoid(p, {33.5, -2.5, 89.5}, {17.5, 11.5, 12.5}), 14);  // orbit
+    d = join(d, ellipsoid(p, {19, 9, 72}, {10, 8, 13}), 8);                  // between brow and inner canthus
     d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);            // infraorbital rim
     return d;
 }
@@ -95,20 +96,19 @@ double lids(const Vec3& p, double d) {
     const double softness = mix(5, 1.8, smooth_step(-5, 4, p.y));  // the upper lid has a crease, the lower one none
     d = join(d, glm::length(p - landmark::eye_centre) - radius, softness);
     d = join(d, glm::length(p - Vec3(17, -3, 75)) - 4, 5);  // inner canthus
-    // The crease that the upper lid folds at, some 8 mm over its edge.
-    const double crease = join(cone(p, {20.5, 3.6, 78.2}, {31, 8.4, 82.3}, 0.5, 1.1),
-                               cone(p, {31, 8.4, 82.3}, {47, 3.2, 75.6}, 1.1, 0.6), 3);
-    d = carve(d, crease, 1.8);
-    return d;
+    // The crease that the upper lid folds at runs evenly over its edge.
+    const double x = std::abs(p.x), over = p.y - canthal_y(x) - 0.95 * upper_lid_height(x) - 4.4;
+    const double ends = smooth_step(18.5, 24, x) * smooth_step(48, 42, x) * smooth_step(66, 72, p.z);
+    return d + 1.1 * bell(over, 1.0) * ends;
 }
 
 double nose(const Vec3& p, double d) {
     double n = cone(p, {0, 5, 85.2}, {0, -28, 99.4}, 5.6, 7.4);              // bridge
     n = join(n, cone(p, {3, -2, 78}, {8.5, -33, 87.5}, 6.5, 8.5), 10);       // its sides
-    n = join(n, ellipsoid(p, {0, -34.0, 101.2}, {9.0, 7.2, 9.6}), 7);        // tip
+    n = join(n, ellipsoid(p, {0, -34.0, 101.2}, {8.4, 7.2, 9.6}), 7);        // tip
     n = join(n, ellipsoid(p, {4.0, -36.4, 103.2}, {5.0, 4.8, 5.6}), 6);      // its two domes
     n = join(n, ellipsoid(p, {0, -37, 90}, {10, 9, 13}), 5);                 // no void between nose and face
-    n = join(n, ellipsoid(p, {11.4, -39.6, 92.6}, {6.2, 6.6, 9.2}), 6);      // wing
+    n = join(n, ellipsoid(p, {11.0, -39.6, 92.6}, {5.9, 6.5, 9.2}), 6);      // wing
     n = join(n, cone(p, {0, -38.6, 105.0}, {0, -44.6, 96.4}, 3.0, 3.6), 5);  // columella
     d = join(d, n, 7);
     // The groove over the wing, from its rim in front to where it meets the cheek.
@@ -180,11 +180,35 @@ Vec3 leave_head(const Vec3& origin, const Vec3& direction) {
     return origin + direction * high;
 }
 
+namespace {
+/// An almond under the wing, its long way from the tip back and aside.
+constexpr Vec3 nostril_centre{6.9, -45.2, 96.6}, nostril_inward{0.6, 8.0, -1.5};
+constexpr double nostril_half_length = 6.3, nostril_half_width = 2.9, nostril_height = 4.5;
+
+/// 0 in the almond's middle, 1 on its rim.
+double nostril_reach(const Vec3& half) {
+    const Vec3 along = glm::normalize(Vec3(0.36, -0.22, -0.9)), up = glm::normalize(nostril_inward);
+    const Vec3 across = glm::normalize(glm::cross(along, up));
+    const Vec3 arm = half - nostril_centre;
+    return glm::length(Vec3(glm::dot(arm, along) / nostril_half_length, glm::dot(arm, across) / nostril_half_width,
+                            glm::dot(arm, up) / nostril_height));
+}
+}  // namespace
+
 Vec3 sink_nostril(const Vec3& p) {
-    constexpr Vec3 centre{6.2, -46.8, 97.6}, widths{2.9, 4.0, 4.3}, inward{1.2, 8.0, -3.0};
-    const double reach = glm::length((Vec3(std::abs(p.x), p.y, p.z) - centre) / widths);
-    const Vec3 sunk = inward * smooth_step(1.15, 0.35, reach);
+    const Vec3 sunk = nostril_inward * smooth_step(1.05, 0.6, nostril_reach({std::abs(p.x), p.y, p.z}));
     return p + Vec3(p.x < 0 ? -sunk.x : sunk.x, sunk.y, sunk.z);
+}
+
+double nostril_depth(const Vec3& p) {
+    // What was sunk by a share of the way came from where that share takes it back to.
+    const Vec3 half{std::abs(p.x), p.y, p.z};
+    double share = 0;
+    for (int n = 1; n <= 10; ++n) {
+        const double way = 0.1 * n;
+        if (smooth_step(1.05, 0.6, nostril_reach(half - nostril_inward * way)) >= way) share = way;
+    }
+    return share;
 }
 
 Vec3 project_to_head(const Vec3& start) {

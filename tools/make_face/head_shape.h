@@ -37,6 +37,8 @@ Vec3 project_to_head(const Vec3& p);
 
 /// Sinks the surface into the nostrils: they are pits behind an edge, which no ray from inside the head could tell.
 Vec3 sink_nostril(const Vec3& p);
+/// How deep in a nostril a place of the finished skin lies: 0 outside, 1 at its ground.
+double nostril_depth(const Vec3& p);
 
 /// Height of the upper and lower lid's edge over the line between the canthi (both positive), at x on the left eye.
 double upper_lid_height(double x);

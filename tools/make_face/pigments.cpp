@@ -49,7 +49,7 @@ double mole_cover(const Vec3& p) {
 
 /// Melanin at a place over that of the typical skin.
 double melanin_factor(const Vec3& p, const Vec3& half, double lip, const SkinTone& look) {
-    double f = 1 + 0.10 * fractal_noise(p / 15.0 + Vec3(3, 7, 1), 3) + 0.07 * fractal_noise(p / 2.6, 2) +
+    double f = 1 + 0.14 * fractal_noise(p / 15.0 + Vec3(3, 7, 1), 3) + 0.10 * fractal_noise(p / 2.6, 2) +
                0.05 * noise(p / 0.9);
     f += 0.14 * bell(half, {0, 42, 90}, {50, 30, 34}) + 0.14 * bell(half, {0, -22, 100}, {13, 22, 20}) +
          0.10 * bell(half, {44, -24, 60}, {22, 16, 24});  // what faces the sun
@@ -72,7 +72,7 @@ double melanin_factor(const Vec3& p, const Vec3& half, double lip, const SkinTon
 
 /// Hemoglobin over that of the typical skin.
 double hemoglobin_factor(const SurfaceTexel& texel, const Vec3& p, const Vec3& half) {
-    double f = 1 + 0.16 * fractal_noise(p / 11.0, 3) + 0.15 * fractal_noise(p / 3.3 + Vec3(9, 2, 4), 2) +
+    double f = 1 + 0.20 * fractal_noise(p / 11.0, 3) + 0.20 * fractal_noise(p / 3.3 + Vec3(9, 2, 4), 2) +
                0.10 * noise(p / 0.8 + Vec3(5, 1, 8));
     const double cheek = bell(half, {40, -34, 64}, {18, 16, 24}), tip = bell(half, {0, -37, 112}, {10, 9, 11}),
                  wing = bell(half, {14, -41, 97}, {7, 8, 11});
@@ -94,7 +94,7 @@ double hemoglobin_factor(const SurfaceTexel& texel, const Vec3& p, const Vec3& h
 
 /// Light skin of the table is darker than people's (L* 62 at the 1 % melanin of Jacques' lightest; measured faces have
 /// 65 to 72), since what the surface reflects is not in it, and less yellow (b* 11 to 14; measured 15 to 19: Xiao et
-/// al. 2017), since it has no carotene (Alaluf et al. 2002). Photographed skin comes out of it as much brighter, too
+/// al. 2017), since it has no carotene (Alaluf et al. 2002b). Photographed skin comes out of it as much brighter, too
 /// (docs/appearance.md).
 const glm::vec3 white(1.26F, 1.20F, 1.11F);
 

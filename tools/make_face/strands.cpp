@@ -89,7 +89,7 @@ void draw_lock(Canvas& canvas, Random& random, double middle, double half_width,
         // The later lie on top and catch the light.
         const double bright = tone * mix(0.66, 1.0, static_cast<double>(n) / strands) * random.between(0.82, 1.15);
         s.color = bright * Vec3(1 + warm, 1, 1 - warm);
-        draw(canvas, s, 0.50, 1.0);
+        draw(canvas, s, 0.60, 1.0);
     }
 }
 
@@ -128,7 +128,7 @@ Picture paint_hair_strands(int width) {
                           0.085 * column, 9, random.between(0.70, 0.985));
         }
         store(canvas, clump * column, 0, 1, picture);
-        store(canvas, clump * column, width, 0.45, picture);
+        store(canvas, clump * column, width, 0.6, picture);
     }
     return picture;
 }
