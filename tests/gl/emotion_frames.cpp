@@ -53,10 +53,13 @@ protected:
         character_.set_appearance(*appearance_);
         // Only what is compared: other effects would spread it over pixels.
         EXPECT_TRUE(character_.set("scattering.method", "off"));
+        // And what costs time, and neither folds nor flushes.
+        EXPECT_TRUE(character_.set("shadows.method", "off"));
+        EXPECT_TRUE(character_.set("antialiasing.mode", "none"));
         view_ = offscreen_.view();
         constexpr float aspect = static_cast<float>(width) / height;
         OrbitCamera camera = character_.framing(aspect);
-        camera.distance *= 0.85F;
+        camera.distance *= 0.8F;
         view_.camera = camera.camera(aspect);
     }
 
