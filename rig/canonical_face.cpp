@@ -167,6 +167,12 @@ glm::vec2 CanonicalFrame::canonical_mm(const glm::vec3& position) const {
     return {std::atan2(across_mm, depth_mm) * mm_per_radian(), glm::dot(from_eyes, up_) * mm_up_ + eye_height_mm_};
 }
 
+float CanonicalFrame::radius_mm(const glm::vec3& position) const {
+    const glm::vec3 from_eyes = position - between_eyes_;
+    return std::hypot(glm::dot(from_eyes, left_) * mm_across_,
+                      glm::dot(from_eyes, forward_) * mm_across_ + canonical_axis_depth_mm);
+}
+
 std::optional<CanonicalMap> canonical_map(const Face& face, std::span<const std::uint32_t> primitives,
                                           const CanonicalFrame& frame, std::uint32_t width, std::uint32_t height) {
     assert(frame.usable() && width > 0 && height > 0);

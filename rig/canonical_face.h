@@ -46,6 +46,8 @@ public:
     explicit CanonicalFrame(const FaceLandmarks& landmarks);
     bool usable() const { return usable_; }
     glm::vec2 canonical_mm(const glm::vec3& position) const;
+    /// From the upright axis of the head.
+    float radius_mm(const glm::vec3& position) const;
     /// The length around the head after which x comes back: a full turn.
     static float turn_mm();
 

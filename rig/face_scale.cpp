@@ -45,10 +45,10 @@ FaceScale face_scale(const Face& face) {
     if (bounds.empty()) return {by_extent, "it has no vertices"};
     const glm::dvec3 size(bounds.size());
     const double extent = std::max({size.x, size.y, size.z});
-    if (extent >= 0.15 && extent <= 0.6) return {by_extent, "its largest extent is that of a head in metres"};
+    if (extent >= 0.15 && extent <= 0.6) return {by_extent, "its largest extent is that of a head in metres", false};
     constexpr double smallest = 1e-9, largest = 1e9;
     if (const double scale = millimetres_by_pupils(face); scale > 0)
-        return {std::clamp(scale, smallest, largest), "its pupils are taken as 62 mm apart"};
+        return {std::clamp(scale, smallest, largest), "its pupils are taken as 62 mm apart", false};
     constexpr double shoulders_mm = 450;
     // A head with its neck is 0.6 to 0.8 as wide as tall.
     if (extent > 1e-9 && std::isfinite(extent) && size.x > 0.95 * size.y && size.x >= size.z) {

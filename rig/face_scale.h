@@ -10,6 +10,7 @@ namespace blush {
 struct FaceScale {
     double millimetres_a_unit = 1;  ///< of the world; finite and above 0
     std::string_view told_by;       ///< a clause: "its pupils are taken as 62 mm apart"
+    bool is_guess = true;           ///< from what the shape of its bounds is like
 };
 
 /// In this order: a largest extent of 0.15 to 0.6 is a head in metres, glTF's

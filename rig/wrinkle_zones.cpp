@@ -21,6 +21,13 @@ FromLine from_line(const WrinkleZonePlace& place, glm::vec2 at) {
 
 }  // namespace
 
+bool in_a_zone(std::span<const std::string> zones, glm::vec2 canonical_mm) {
+    return std::ranges::any_of(wrinkle_zone_places, [&](const WrinkleZonePlace& place) {
+        return from_line(place, canonical_mm).away_mm < place.radius_mm &&
+               std::ranges::find(zones, place.name) != zones.end();
+    });
+}
+
 std::vector<WrinkleZoneField> wrinkle_zone_fields(std::span<const std::string> zones, const CanonicalMap& map) {
     const std::uint32_t width = map.canonical_mm.width, height = map.canonical_mm.height;
     std::vector<WrinkleZoneField> fields(zones.size());

@@ -31,8 +31,8 @@ struct WrinkleZonePlace {
 /// above the pupils, brows 20, outer corner of the eye at 48 from the midline, wing of the nose at 17 and 38 below,
 /// corner of the mouth at 26 and 68 below.
 inline constexpr std::array<WrinkleZonePlace, 12> wrinkle_zone_places = {{
-    {"foreheadOuterLeft", {32, 42}, {50, 38}, 20},   // red
-    {"foreheadOuterRight", {32, 42}, {50, 38}, 20},  // green
+    {"foreheadOuterLeft", {31, 42}, {46, 41}, 19},   // red
+    {"foreheadOuterRight", {31, 42}, {46, 41}, 19},  // green
     {"foreheadInnerLeft", {8, 43}, {16, 43}, 20},    // blue
     {"foreheadInnerRight", {8, 43}, {16, 43}, 20},   // brown
     {"noseLeft", {6, 0}, {11, -20}, 9},              // cyan
@@ -50,6 +50,9 @@ struct WrinkleZoneField {
     ScalarMap share;      ///< 0 to 1; without texels: everywhere
     ScalarMap crease_mm;  ///< distance from the line of the one fold, signed; without texels: no such line
 };
+
+/// Whether a place lies within the radius of any of these zones.
+bool in_a_zone(std::span<const std::string> zones, glm::vec2 canonical_mm);
 
 /// For each of `zones` its place in the layout of `map`. Names that are none of wrinkle_zone_places are everywhere.
 std::vector<WrinkleZoneField> wrinkle_zone_fields(std::span<const std::string> zones, const CanonicalMap& map);

@@ -90,6 +90,26 @@ NormalMap base_normals(const CharacterState& state) {
     return base;
 }
 
+/// Maps of a part of the layout do not repeat: what lies outside meets their outermost texels.
+void end_at_part(const gl::Texture& texture, const WrinkleSet& set) {
+    if (set.part.is_whole()) return;
+    glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// A map of the layout as a map of the part that wrinkles show.
+NormalMap part_of(NormalMap map, const WrinkleSet& set) {
+    if (set.part.is_whole() || map.values.empty()) return map;
+    NormalMap part(set.derivatives.width, set.derivatives.height);
+    for (std::uint32_t y = 0; y < part.height; ++y) {
+        for (std::uint32_t x = 0; x < part.width; ++x) {
+            const glm::vec2 uv = (glm::vec2(x, y) + 0.5F) / glm::vec2(part.width, part.height);
+            part.at(x, y) = sample(map, glm::mix(set.part.from, set.part.to, uv));
+        }
+    }
+    return part;
+}
+
 std::vector<std::uint8_t> pigment_texels(const AppearanceMaps& maps) {
     std::vector<std::uint8_t> texels;
     texels.reserve(4 * maps.skin.values.size());
@@ -122,15 +142,24 @@ WrinkleTextures& wrinkle_textures(CharacterState& state) {
     const WrinkleSet& set = *state.appearance.wrinkles;
     const auto storage = static_cast<WrinkleStorage>(state.settings.choice(wrinkles_effect.name, "storage"));
     const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
-    if (!textures.masks) textures.masks = mask_texture(set.masks);
+    if (!textures.masks) {
+        textures.masks = mask_texture(set.masks);
+        end_at_part(textures.masks, set);
+    }
     if (textures.storage != storage) {
         textures.derivatives = {};
         textures.differences = {};
         textures.storage = storage;
     }
-    if (!differences && !textures.derivatives) textures.derivatives = derivative_texture(set, storage);
-    if (differences && !textures.differences)
-        textures.differences = difference_texture(normal_differences(set.derivatives, base_normals(state)), storage);
+    if (!differences && !textures.derivatives) {
+        textures.derivatives = derivative_texture(set, storage);
+        end_at_part(textures.derivatives, set);
+    }
+    if (differences && !textures.differences) {
+        const NormalMap base = part_of(base_normals(state), set);
+        textures.differences = difference_texture(normal_differences(set.derivatives, base), storage);
+        end_at_part(textures.differences, set);
+    }
 
     const auto map_bytes = [&](std::uint32_t width, std::uint32_t height) {
         constexpr std::array<std::uint64_t, 3> derivative_bytes = {0, 2, 4}, difference_bytes = {3, 3, 6};
@@ -265,6 +294,8 @@ void bind_appearance(CharacterState& state, bool wrinkles, bool blood) {
         for (std::size_t z = 0; z < weights.size(); ++z)
             block.wrinkle_weights[z / 4][static_cast<glm::length_t>(z % 4)] = weights[z];
         block.wrinkle_range.x = set.range;
+        const glm::vec2 scale = 1.0F / (set.part.to - set.part.from);
+        block.wrinkle_part = glm::vec4(scale, -set.part.from * scale);
         const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
         glBindTextureUnit(BLUSH_WRINKLE_MAP_UNIT, (differences ? textures.differences : textures.derivatives).name());
         glBindTextureUnit(BLUSH_WRINKLE_MASKS_UNIT, textures.masks.name());

@@ -102,13 +102,16 @@ std::vector<glm::dvec3> AppearanceProbe::exact_normals(float weight) {
     const WrinkleSet& set = *state().appearance.wrinkles;
     std::vector<glm::dvec3> result;
     for (std::size_t i = 0; i < std::size_t{side} * side; ++i) {
+        const glm::dvec2 uv = set.part.within(uv_of(i));
+        const bool shown = set.part.is_whole() || (glm::all(glm::greaterThan(uv, glm::dvec2(0))) &&
+                                                   glm::all(glm::lessThan(uv, glm::dvec2(1))));
         double strength = 0;
-        for (std::size_t z = 0; z < set.zones.size(); ++z) {
+        for (std::size_t z = 0; shown && z < set.zones.size(); ++z) {
             if (std::ranges::find(state().rig.wrinkle_zones(), set.zones[z]) == state().rig.wrinkle_zones().end())
                 continue;
-            strength += static_cast<double>(weight) * repeated_sample(set.masks[z], uv_of(i));
+            strength += static_cast<double>(weight) * repeated_sample(set.masks[z], uv);
         }
-        result.push_back(glm::normalize(glm::dvec3(repeated_sample(set.derivatives, uv_of(i)) * strength, 1)));
+        result.push_back(glm::normalize(glm::dvec3(repeated_sample(set.derivatives, uv) * strength, 1)));
     }
     return result;
 }

@@ -18,34 +18,33 @@ Camera OrbitCamera::camera(float aspect) const {
             glm::perspective(vertical_field_of_view_radians, aspect, near_plane, far_plane)};
 }
 
-Bounds portrait(const Bounds& bounds, double millimetres_a_unit) {
-    const auto units_a_millimetre = static_cast<float>(1 / millimetres_a_unit);
-    if (bounds.empty() || !std::isfinite(units_a_millimetre) || !(units_a_millimetre > 0)) return bounds;
+Bounds portrait(const Bounds& bounds, const FaceScale& scale) {
+    if (bounds.empty() || scale.is_guess) return bounds;
+    const auto units_a_millimetre = static_cast<float>(1 / scale.millimetres_a_unit);
     Bounds shown = bounds;
-    shown.low.y = std::max(bounds.low.y, bounds.high.y - 290 * units_a_millimetre);
-    const float middle = bounds.centre().x, half_width = 135 * units_a_millimetre;
+    shown.low.y = std::max(bounds.low.y, bounds.high.y - 270 * units_a_millimetre);
+    const float middle = bounds.centre().x, half_width = 125 * units_a_millimetre;
     shown.low.x = std::max(bounds.low.x, middle - half_width);
     shown.high.x = std::min(bounds.high.x, middle + half_width);
     return shown;
 }
 
-OrbitCamera frame_head(const Bounds& bounds, double millimetres_a_unit, float aspect) {
+OrbitCamera frame_head(const Bounds& bounds, const FaceScale& scale, float aspect) {
     OrbitCamera camera;
     const glm::vec3 whole = bounds.empty() ? glm::vec3(0) : bounds.size();
     const float extent = std::max({whole.x, whole.y, whole.z});
     if (!std::isfinite(extent) || !(extent > 0)) return camera;
-    const Bounds shown = portrait(bounds, millimetres_a_unit);
+    const Bounds shown = portrait(bounds, scale);
     const glm::vec3 size = shown.size();
     camera.target_world = shown.centre();
     // From the target to the farthest corner of everything, since the planes must hold what the portrait leaves out.
     const glm::vec3 farthest = glm::max(bounds.high - camera.target_world, camera.target_world - bounds.low);
     camera.scene_radius = glm::length(farthest);
-    // The outline of a head lies in the middle of its depth, its nose and chin well inside; the margin is for what
-    // comes nearer, as the corners of the front do halfway to the middle.
+    // The front of the box fills 1 / margin of the narrower side.
     constexpr float margin = 1.12F;
     const float half_tangent = std::tan(0.5F * camera.vertical_field_of_view_radians);
     const float half_height = 0.5F * margin * std::max(size.y, size.x / aspect);
-    camera.distance = half_height / half_tangent + 0.25F * size.z;
+    camera.distance = half_height / half_tangent + 0.5F * size.z;
     return camera;
 }
 

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include "rig/face_scale.h"
 #include "rig/head_and_eyes.h"
 #include "runtime/view.h"
 
@@ -21,13 +22,13 @@ struct OrbitCamera {
     Camera camera(float aspect) const;
 };
 
-/// What a portrait shows of `bounds`: the uppermost 290 mm, 270 mm wide about the middle. A head with its hair and the
+/// What a portrait shows of `bounds`: the uppermost 270 mm, 250 mm wide about the middle. A head with its hair and the
 /// neck is within (head height 225 mm in the mean: Farkas 1994); shoulders and chest of a bust are not.
-/// millimetres_a_unit: FaceScale's; what is not finite or not above 0 gives `bounds` back.
-Bounds portrait(const Bounds& bounds, double millimetres_a_unit);
+/// A face whose scale is a guess from `bounds` is shown whole.
+Bounds portrait(const Bounds& bounds, const FaceScale& scale);
 
 /// Frames the portrait of `bounds` from the front with a margin. Empty or non-finite bounds give a camera that looks at
 /// the origin.
-OrbitCamera frame_head(const Bounds& bounds, double millimetres_a_unit, float aspect);
+OrbitCamera frame_head(const Bounds& bounds, const FaceScale& scale, float aspect);
 
 }  // namespace blush

@@ -140,9 +140,7 @@ void Character::set_occlusion(std::optional<OcclusionSet> occlusion) {
     state_->own<OcclusionBuffer>() = {};
 }
 
-OrbitCamera Character::framing(float aspect) const {
-    return frame_head(state_->bounds, state_->scale.millimetres_a_unit, aspect);
-}
+OrbitCamera Character::framing(float aspect) const { return frame_head(state_->bounds, state_->scale, aspect); }
 
 const FrameReport& Character::draw(const View& view) {
     if (view.width == 0 || view.height == 0) {

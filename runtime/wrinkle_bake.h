@@ -14,6 +14,7 @@ struct WrinkleBakeOptions {
     float range = 0;                ///< derivative that 8 bits end at; 0: as far as the steepest fold goes, between
                                     ///< published_derivative_range and widest_chosen_range
     double millimetres_a_unit = 0;  ///< 0: by the distance of the pupils
+    bool whole_layout = false;      ///< maps of the whole texture layout, not of the part that folds
 };
 /// 76 degrees: folds of skin that are steeper are mistakes.
 inline constexpr float widest_chosen_range = 4;

@@ -1,7 +1,8 @@
 #pragma once
 /// Wrinkle maps on disk: wrinkles.png (partial derivatives in red and green; 128 is 0, 1 and 255 the ends of the
 /// range), wrinkle_mask_1.png, _2 and _3 (four zones each, in red, green, blue and alpha; as many as there are zones
-/// for), and wrinkles.json, which says what they hold. An artist may paint any of them over. No GL. Nothing here
+/// for), and wrinkles.json, which says what they hold and, by "layout_from" and "layout_to", which part of the layout
+/// they show. An artist may paint any of them over. No GL. Nothing here
 /// throws; a message names file, place and reason.
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "rig/derivative_map.h"
+#include "rig/layout_part.h"
 #include "rig/map.h"
 #include "rig/result.h"
 
@@ -27,6 +29,8 @@ struct WrinkleSet {
     DerivativeMap derivatives;                 ///< within +-range
     std::vector<ScalarMap> masks;              ///< one a zone, of one size, 0 to 1
     float range = published_derivative_range;  ///< above 0, to largest_derivative_range
+    /// What of the face's layout the maps show. Of a part, the outermost texels of masks are 0: no fold lies outside.
+    LayoutPart part;
 };
 
 /// 89.4 degrees; beyond it one step of 8 bits is most of the useful range.
@@ -37,7 +41,8 @@ Status write_wrinkles(const std::filesystem::path& folder, const WrinkleSet& wri
 
 /// Of 8 or 16 bits, or floating point (.exr is looked for where there is no .png; its values are plain derivatives and
 /// weights). Texels that are not finite count as flat and as outside of every zone. Error: a map that is missing, has
-/// too few channels or more than 8,192 texels a side; masks of two sizes; unknown keys; a range out of its bounds.
+/// too few channels or more than 8,192 texels a side; masks of two sizes; unknown keys; a range or a part out of its
+/// bounds.
 Result<WrinkleSet> load_wrinkles(const std::filesystem::path& folder);
 
 }  // namespace blush

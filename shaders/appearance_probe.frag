@@ -14,7 +14,8 @@ layout(location = 0) out vec4 result;
 void main() {
     result = vec4(1.0);
 #ifdef WRINKLES
-    result = vec4(normalize(wrinkled(vec3(0.0, 0.0, 1.0), screen_uv, wrinkle_strength(screen_uv))), 1.0);
+    vec2 uv = wrinkle_uv(screen_uv);
+    result = vec4(normalize(wrinkled(vec3(0.0, 0.0, 1.0), uv, wrinkle_strength(uv))), 1.0);
 #endif
 #ifdef BLOOD
     result = vec4(flushed(vec3(1.0), screen_uv), 1.0);

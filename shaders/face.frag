@@ -73,9 +73,10 @@ vec3 shading_normal(vec3 view_world) {
     bent = m.xy != vec2(0.0);
 #endif
 #ifdef WRINKLES
-    float strength = wrinkle_strength(layout_uv);
+    vec2 fold_uv = wrinkle_uv(layout_uv);
+    float strength = wrinkle_strength(fold_uv);
     if (strength != 0.0) {
-        m = wrinkled(m, layout_uv, strength);
+        m = wrinkled(m, fold_uv, strength);
         bent = true;
     }
 #endif
@@ -157,6 +158,9 @@ void main() {
 #endif
 #ifdef HAIR
     cover_samples(base.a);
+    // Nothing is left of it in 8 bits: most of a card.
+    if (alpha.y == 0.0 && base.a < 1.0 / 255.0) discard;
+    if (base.a >= BLUSH_HAIR_CORE_OPACITY) base.a = 1.0;
 #else
     if (base.a < alpha.x) discard;
 #endif
@@ -222,6 +226,9 @@ void main() {
 #endif
 #ifdef HAIR
     vec3 strand = strand_direction(position_world, texture_uv[0], n);
+    // What the texture has darker than the material's colour lies among other strands.
+    vec3 whole = max(base_color_linear.rgb, vec3(1e-4));
+    float exposed = clamp(dot(base.rgb / whole, vec3(1.0 / 3.0)), 0.0, 1.0);
 #endif
     vec3 entering = vec3(0.0);  // radiance that white would reflect, of the light that is left for the inside
     vec3 surface = vec3(0.0);   // reflected at the surface
@@ -241,6 +248,10 @@ void main() {
 #else
     // Ambient reflection: what stands in the mirror direction, with Schlick's Fresnel damped by roughness.
     vec3 fresnel_view = f0 + (max(vec3(1.0 - roughness) * f90, f0) - f0) * pow(1.0 - min(n_v, 1.0), 5.0);
+#ifdef HAIR
+    // A cylinder mirrors all directions across it, and has passed most of what is left through its own colour.
+    fresnel_view = 0.046 * sqrt(base.rgb);
+#endif
     surface += fresnel_view * ambient_mirrored * occlusion;
     entering += ambient * occlusion;
 #endif
@@ -261,13 +272,18 @@ void main() {
 #endif
         vec3 radiance = arrives.radiance;
 #ifdef SHADOWS
+#ifdef HAIR
+        // Strands hide a part of the light from each other and send most of it on.
+        radiance *= mix(0.3, 1.0, lit_share(light, map, vertex_normal, l));
+#else
         radiance *= lit_share(light, map, vertex_normal, l);
+#endif
 #endif
         vec3 h = l + view;
 #ifdef HAIR
         vec3 shares = strand_shares(strand, n, l, view);
         entering += radiance * shares.x;
-        surface += pi * radiance * (shares.y + shares.z * sqrt(base.rgb));
+        surface += pi * radiance * (shares.y * exposed + shares.z * sqrt(base.rgb));
 #elif defined(SKIN) && defined(SKIN_REFLECTION)
         entering += (1.0 - skin_intensity * specular_albedo(n_l, skin_rough).x) * radiance * n_l;
         // radiance is irradiance / pi: Lambert's 1 / pi cancels, the specular term keeps pi.

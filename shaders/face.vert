@@ -7,6 +7,9 @@ layout(location = BLUSH_TANGENT_ATTRIBUTE) in vec4 tangent;
 layout(location = BLUSH_UV0_ATTRIBUTE) in vec2 uv0;
 layout(location = BLUSH_UV1_ATTRIBUTE) in vec2 uv1;
 
+// The core of hair is drawn twice, the second time where its depth is what the first one left.
+invariant gl_Position;
+
 centroid out vec3 position_world;
 centroid out vec3 normal_world;
 centroid out vec4 tangent_world;

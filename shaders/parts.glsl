@@ -85,10 +85,11 @@ vec2 iris_offset(Eye eye, vec3 place, vec3 n, vec3 view, vec2 uv) {
 #endif
 
 #ifdef MOUTH
-// What is left of the light behind the lips: it falls with the depth, as in a cave whose mouth is about as wide as deep.
+// What is left of the light behind the lips: it falls with the depth behind the foremost tooth by how much of an opening
+// 50 mm wide is seen from there, 1 / (1 + (d / r)^2) of a disc's. Occlusion and shadows do the rest.
 float mouth_visibility(vec3 place) {
     float depth_mm = max(dot(mouth_front.xyz - place, mouth_forward.xyz) * skin.x, 0.0);
-    return mix(1.0, 0.95 / (1.0 + depth_mm * depth_mm / (12.0 * 12.0)), parts.z);
+    return mix(1.0, 1.0 / (1.0 + depth_mm * depth_mm / (25.0 * 25.0)), parts.z);
 }
 #endif
 
@@ -123,10 +124,11 @@ vec3 strand_shares(vec3 strand, vec3 n, vec3 l, vec3 view) {
     // 1/4 of the light that crosses the strand's width goes each way around it; Fresnel at 1.55 is 0.046.
     float around = 0.25 * forward * cos_l / (cos_difference * cos_difference);
     const float degree = 0.0174533;
-    float first = 0.046 * around * lobe(half_angle, -7.5 * degree, 7.5 * degree);
-    float second = 0.046 * around * lobe(half_angle, 11.0 * degree, 15.0 * degree);
-    // A card stands for strands one behind the other: those turned away from the light are in the shadow of the rest.
-    float before_others = clamp(0.5 + 0.5 * dot(n, l), 0.0, 1.0);
-    return vec3(cos_l * before_others, first * before_others, second * before_others);
+    float first = 0.046 * around * lobe(half_angle, -7.5 * degree, 9.0 * degree);
+    float second = 0.046 * around * lobe(half_angle, 11.0 * degree, 18.0 * degree);
+    // A card stands for strands one behind the other: those turned away from the light are in the shadow of the rest,
+    // and of those that shine half are hidden.
+    float before_others = clamp((dot(n, l) + 0.25) / 1.25, 0.0, 1.0);
+    return before_others * vec3(cos_l, 0.5 * first * before_others, second);
 }
 #endif

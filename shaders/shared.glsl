@@ -18,6 +18,9 @@
 #define BLUSH_EXPOSURE_CELLS 32
 #define BLUSH_MOST_BLUR_TAPS 81
 
+// Blended hair from this opacity on hides what is behind it, and casts shadows.
+#define BLUSH_HAIR_CORE_OPACITY 0.7
+
 // RGBA masks of wrinkle zones, at most: the paper's two (jimenez-2012, 8.2) and one more.
 #define BLUSH_MOST_WRINKLE_MASKS 3
 // Maps of blood that act at once, at most.
@@ -175,6 +178,7 @@ BLUSH_UNIFORM_BLOCK(MaterialBlock, BLUSH_MATERIAL_BINDING) {
 BLUSH_UNIFORM_BLOCK(AppearanceBlock, BLUSH_APPEARANCE_BINDING) {
     vec4 wrinkle_weights[BLUSH_MOST_WRINKLE_MASKS];  // of the zones, as the masks' channels hold them
     vec4 wrinkle_range;       // x: derivative that the map's 1 stands for; yzw unused
+    vec4 wrinkle_part;        // xy: factor on texture coordinates, zw: what is added, for maps of a part of the layout
     vec4 blood;               // x: factor on the hemoglobin of the whole face; y: largest hemoglobin; z: nodes of a side of the
                               // colour table; w unused
 };

@@ -14,7 +14,9 @@ layout(location = 0) out vec4 speed_velocity;
 
 void main() {
 #ifdef ALPHA_TEST
-    if (base_color_linear.a * texture(base_color_map, base_color_uv).a < alpha.x) discard;
+    // Blended hair moves where it is opaque.
+    float cutoff = alpha.y == 0.0 ? BLUSH_HAIR_CORE_OPACITY : alpha.x;
+    if (base_color_linear.a * texture(base_color_map, base_color_uv).a < cutoff) discard;
 #endif
     // What was behind the camera was not on the screen: as far away as a velocity can say, four screens. The clamp keeps
     // half floats finite.

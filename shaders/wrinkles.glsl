@@ -3,6 +3,9 @@
 layout(binding = BLUSH_WRINKLE_MAP_UNIT) uniform sampler2D wrinkle_map;
 layout(binding = BLUSH_WRINKLE_MASKS_UNIT) uniform sampler2DArray wrinkle_masks;
 
+// Texture coordinates of the wrinkle maps, which may show a part of the layout.
+vec2 wrinkle_uv(vec2 layout_uv) { return layout_uv * wrinkle_part.xy + wrinkle_part.zw; }
+
 float wrinkle_strength(vec2 uv) {
     float strength = 0.0;
     for (int mask = 0; mask < BLUSH_MOST_WRINKLE_MASKS; ++mask) {

@@ -9,8 +9,7 @@
 #include "rig/hemoglobin.h"
 #include "rig/skin_colour_table.h"
 #include "runtime/appearance_file.h"
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
+#include "runtime/effects/baker.h"
 
 namespace blush {
 namespace {
@@ -39,11 +38,8 @@ constexpr std::array<Setting, 4> settings = {{
 }};
 
 Need need(const CharacterState& state) {
-    Need need{.on = false, .reason = "frames bake nothing, and the face has no maps to draw (blush bake appearance)"};
-    if (state.appearance.pigments) need.reason = "the face's pigments are baked already";
-    if (state.skin.parts.empty()) need.reason = "there is nothing to bake: the face has no skin";
-    need.can_be_forced = false;
-    return need;
+    return baker_need(state, state.appearance.pigments.has_value(), "the face's pigments are baked already",
+                      "frames bake nothing, and the face has no maps to draw (blush bake appearance)");
 }
 
 const SkinColourTable& exact_table() {
@@ -71,12 +67,8 @@ Study table_study() {
                 {},
                 nullptr};
     for (const std::uint32_t nodes : {8U, 16U, 32U, 64U}) {
-        Variant variant;
-        variant.label = "blood.table_nodes=" + std::to_string(nodes);
-        variant.work = std::to_string(nodes * nodes) + " colours";
-        variant.is_default = nodes == SkinColourTable::default_nodes;
-        variant.run = [nodes] { const SkinColourTable table(nodes, nodes); };
-        variant.error = [nodes] {
+        const auto run = [nodes] { const SkinColourTable table(nodes, nodes); };
+        const auto error_of = [nodes] {
             const SkinColourTable table(nodes, nodes);
             constexpr int steps = 11;
             Variant::Error error;
@@ -94,7 +86,9 @@ Study table_study() {
             }
             return error;
         };
-        study.variants.push_back(std::move(variant));
+        study.variants.push_back(baker_variant("blood.table_nodes=" + std::to_string(nodes),
+                                               std::to_string(nodes * nodes) + " colours",
+                                               nodes == SkinColourTable::default_nodes, run, error_of));
     }
     return study;
 }
@@ -122,26 +116,18 @@ Study matching_study(const std::shared_ptr<const Blood>& blood) {
             const float weight = 1;
             return blended_hemoglobin(blood->rest, blood->skin, std::span(&weight, 1), std::span(&change, 1));
         };
-        Variant variant;
-        variant.label = coarser == 1 ? "at full resolution" : "at 1/" + std::to_string(coarser) + " of it";
-        variant.work = std::to_string(side / coarser) + " texels a side";
-        variant.is_default = coarser == 4;
-        variant.run = [matched] { (void)matched(); };
-        variant.error = [matched, blood] { return difference(matched(), blood->exact, blood->melanin); };
-        study.variants.push_back(std::move(variant));
+        study.variants.push_back(baker_variant(
+            coarser == 1 ? "at full resolution" : "at 1/" + std::to_string(coarser) + " of it",
+            std::to_string(side / coarser) + " texels a side", coarser == 4, [matched] { (void)matched(); },
+            [matched, blood] { return difference(matched(), blood->exact, blood->melanin); }));
     }
-    Variant exact;
-    exact.label = "exact histogram matching";
-    exact.work = std::to_string(side) + " texels a side";
-    exact.run = [blood] { (void)matched_locally(blood->rest, blood->expression, blood->radius); };
-    exact.error = [] { return Variant::Error{}; };
-    study.variants.push_back(std::move(exact));
-    Variant none;
-    none.label = "no change at all";
-    none.work = "nothing";
-    none.run = [] {};
-    none.error = [blood] { return difference(blood->rest, blood->exact, blood->melanin); };
-    study.variants.push_back(std::move(none));
+    study.variants.push_back(baker_variant(
+        "exact histogram matching", std::to_string(side) + " texels a side", false,
+        [blood] { (void)matched_locally(blood->rest, blood->expression, blood->radius); },
+        [] { return Variant::Error{}; }));
+    study.variants.push_back(baker_variant(
+        "no change at all", "nothing", false, [] {},
+        [blood] { return difference(blood->rest, blood->exact, blood->melanin); }));
     return study;
 }
 
@@ -152,27 +138,24 @@ Study inversion_study(const std::shared_ptr<const ColourMap>& albedo) {
                 "CIEDE2000 (median, and 99th percentile as worst)",
                 {},
                 std::const_pointer_cast<ColourMap>(albedo)};
-    for (const float lightness : {0.0F, 0.35F, 1.0F}) {
-        const auto report = [albedo, lightness] {
+    constexpr std::array<std::pair<const char*, float>, 3> lightnesses = {{{"0", 0.0F}, {"0.35", 0.35F}, {"1", 1.0F}}};
+    for (const auto& [name, lightness] : lightnesses) {
+        const auto report = [albedo, lightness = lightness] {
             AlbedoOptions options;
             options.lightness_weight = lightness;
             AlbedoReport found;
             (void)appearance_from_albedo(*albedo, exact_table(), options, nullptr, &found);
             return found;
         };
-        Variant variant;
-        variant.label = lightness == 0   ? "appearance_baking.lightness=0"
-                        : lightness == 1 ? "appearance_baking.lightness=1"
-                                         : "appearance_baking.lightness=0.35";
-        variant.work = std::to_string(albedo->values.size()) + " texels inverted";
-        variant.is_default = lightness > 0 && lightness < 1;
-        variant.run = [report] { (void)report(); };
-        variant.error = [report] {
+        const auto error = [report] {
             const AlbedoReport found = report();
             return Variant::Error{static_cast<double>(found.median_difference),
                                   static_cast<double>(found.percentile_99_difference)};
         };
-        study.variants.push_back(std::move(variant));
+        study.variants.push_back(baker_variant(
+            std::string("appearance_baking.lightness=") + name,
+            std::to_string(albedo->values.size()) + " texels inverted", lightness > 0 && lightness < 1,
+            [report] { (void)report(); }, error));
     }
     return study;
 }
@@ -227,7 +210,7 @@ const Effect appearance_baking_effect = {
     .settings = settings,
     .stage = Stage::surface,
     .need = need,
-    .declare = [](CharacterState&) {},
+    .declare = declare_nothing,
     .studies = studies,
     .hard_cases = hard_cases,
 };

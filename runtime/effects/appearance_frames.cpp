@@ -166,14 +166,17 @@ std::optional<Face> face_with_wrinkles(const Face& face, const std::vector<bool>
                                    : normals_of(face.images[static_cast<std::size_t>(material.normal.image)]);
         const auto scale = static_cast<double>(material.normal_scale);
         const std::int32_t image = add_image(twin, base.width, base.height, [&](glm::dvec2 uv) {
+            const glm::dvec2 fold_uv = set.part.within(uv);
+            const bool shown = set.part.is_whole() || (glm::all(glm::greaterThan(fold_uv, glm::dvec2(0))) &&
+                                                       glm::all(glm::lessThan(fold_uv, glm::dvec2(1))));
             double strength = 0;
-            for (std::size_t z = 0; z < zone_weights.size(); ++z) {
+            for (std::size_t z = 0; shown && z < zone_weights.size(); ++z) {
                 if (zone_weights[z] != 0)
-                    strength += static_cast<double>(zone_weights[z]) * repeated<double>(set.masks[z], uv);
+                    strength += static_cast<double>(zone_weights[z]) * repeated<double>(set.masks[z], fold_uv);
             }
             const glm::dvec3 flat = repeated<glm::dvec3>(base, uv);
             const glm::dvec2 slope = scale * glm::dvec2(flat) / std::max(flat.z, 1e-3) +
-                                     strength * repeated<glm::dvec2>(set.derivatives, uv);
+                                     strength * repeated<glm::dvec2>(set.derivatives, fold_uv);
             return glm::dvec4(0.5 + 0.5 * glm::normalize(glm::dvec3(slope, 1)), 1);
         });
         twin.materials[m].normal = {.image = image};

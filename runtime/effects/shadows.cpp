@@ -5,6 +5,7 @@
 #include "runtime/draw_face.h"
 #include "runtime/effects/frame_study.h"
 #include "runtime/frame.h"
+#include "runtime/hair_core.h"
 #include "runtime/shadow_maps.h"
 
 namespace blush {
@@ -59,8 +60,8 @@ bool is_double_sided(const Face& face, const Primitive& primitive) {
     return primitive.material >= 0 && face.materials[static_cast<std::size_t>(primitive.material)].double_sided;
 }
 
-/// What casts shadows: all that is solid. Cut-out and blended cards would cast their whole outline.
-bool casts_shadow(const Face& face, const Primitive& primitive) {
+/// What is solid casts shadows; of cards only hair's opaque core does, or they would cast their whole outline.
+bool is_solid(const Face& face, const Primitive& primitive) {
     return primitive.material < 0 ||
            face.materials[static_cast<std::size_t>(primitive.material)].alpha_mode == AlphaMode::opaque;
 }
@@ -74,16 +75,21 @@ void draw_maps(CharacterState& state) {
     glClearNamedFramebufferfv(maps.framebuffer.name(), GL_DEPTH, 0, &far_depth);
     write_draw_blocks(state);
     state.model.bind_surface(*state.surface);
-    glUseProgram(maps.program.name());
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP);  // what stands before or behind the map's range still casts
     const auto side = static_cast<GLsizei>(maps.side_texels);
     for (const shared::Light& light : state.shader_lights) {
         if (light.shadow.x < 0) continue;
         glViewport(static_cast<GLint>(light.shadow.x) * side, 0, side, side);
-        glUniformMatrix4fv(0, 1, GL_FALSE, &light.shadow_from_world[0][0]);
         each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t draw_index, bool mirrored) {
-            if (!casts_shadow(state.face, primitive)) return;
+            const bool hair = is_hair_card(state, primitive);
+            if (!hair && !is_solid(state.face, primitive)) return;
+            if (hair) {
+                bind_hair_core(state, primitive, SeenFrom::light);
+            } else {
+                glUseProgram(maps.program.name());
+            }
+            glUniformMatrix4fv(0, 1, GL_FALSE, &light.shadow_from_world[0][0]);
             // Only what light can meet from outside: through the open back of a shell it would come in at once, and
             // shine through the front as if that were thin.
             if (is_double_sided(state.face, primitive)) {

@@ -8,6 +8,7 @@
 #include "runtime/effects/antialiasing_study.h"
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/hair_core.h"
 
 namespace blush {
 namespace {
@@ -57,14 +58,15 @@ void bind_surfaces(CharacterState& state, Velocities& own, const LastFrame& last
 
 void set_matrix(GLint location, const glm::mat4& matrix) { glUniformMatrix4fv(location, 1, GL_FALSE, &matrix[0].x); }
 
-/// What blends is passed over: its velocity is that of what is behind it.
+/// What blends is passed over, but for the core of hair: its velocity is that of what is behind it.
 void draw_primitive(CharacterState& state, const Velocities& own, const LastFrame& last, const Primitive& primitive,
                     std::size_t node, bool mirrored) {
-    if (is_blended(state.face, primitive)) return;
+    const bool blended = is_blended(state.face, primitive);
+    if (blended && !is_hair_card(state, primitive)) return;
     const Material* material =
         primitive.material >= 0 ? &state.face.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
     const bool alpha_test =
-        material != nullptr && material->alpha_mode == AlphaMode::mask && material->base_color_srgb.image >= 0;
+        material != nullptr && material->alpha_mode != AlphaMode::opaque && material->base_color_srgb.image >= 0;
     if (alpha_test) state.model.bind_maps(state.face, primitive.material);
     glUseProgram(own.programs[alpha_test ? 1 : 0].name());
 

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "rig/wrinkle_error.h"
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
+#include "runtime/effects/baker.h"
 
 namespace blush {
 namespace {
 
-constexpr std::array<Setting, 5> settings = {{
+constexpr std::array<std::string_view, 2> parts = {"folds", "whole"};
+constexpr std::array<Setting, 6> settings = {{
     {.name = "size",
      .meaning = "texels of a side of the wrinkle map",
      .lowest = 16,
@@ -32,27 +32,24 @@ constexpr std::array<Setting, 5> settings = {{
      .lowest = 0,
      .highest = 4294967295.0,
      .default_number = 1},
+    {"layout",
+     "folds: maps of the part of the texture layout where skin folds, so that their texels are small there; whole: of "
+     "all of it",
+     parts},
 }};
 
 Need need(const CharacterState& state) {
-    Need need{.on = false, .reason = "frames bake nothing, and the face has no maps to draw (blush bake wrinkles)"};
-    if (state.appearance.wrinkles) need.reason = "the face's wrinkles are baked already";
-    if (state.skin.parts.empty()) need.reason = "there is nothing to bake: the face has no skin";
-    need.can_be_forced = false;
-    return need;
+    return baker_need(state, state.appearance.wrinkles.has_value(), "the face's wrinkles are baked already",
+                      "frames bake nothing, and the face has no maps to draw (blush bake wrinkles)");
 }
 
 Variant variant_of(std::string label, std::string work, bool is_default, const WrinkleErrorCase& of) {
-    Variant variant;
-    variant.label = std::move(label);
-    variant.work = std::move(work);
-    variant.is_default = is_default;
-    variant.run = [of] { (void)wrinkle_normal_error(of); };
-    variant.error = [of] {
-        const NormalError error = wrinkle_normal_error(of);
-        return Variant::Error{error.mean_degrees, error.worst_degrees};
+    const auto run = [of] { (void)wrinkle_normal_error(of); };
+    const auto error = [of] {
+        const NormalError found = wrinkle_normal_error(of);
+        return Variant::Error{found.mean_degrees, found.worst_degrees};
     };
-    return variant;
+    return baker_variant(std::move(label), std::move(work), is_default, run, error);
 }
 
 std::vector<Study> studies(const Device& /*device*/, const Face& /*face*/, double /*millimetres_a_unit*/, bool quick) {
@@ -111,7 +108,7 @@ const Effect wrinkle_baking_effect = {
     .settings = settings,
     .stage = Stage::surface,
     .need = need,
-    .declare = [](CharacterState&) {},
+    .declare = declare_nothing,
     .studies = studies,
     .hard_cases = hard_cases,
 };

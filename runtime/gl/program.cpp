@@ -120,6 +120,7 @@ const std::vector<Block>& shared_blocks() {
          sizeof(AppearanceBlock),
          {{"wrinkle_weights[0]", offsetof(AppearanceBlock, wrinkle_weights)},
           {"wrinkle_range", offsetof(AppearanceBlock, wrinkle_range)},
+          {"wrinkle_part", offsetof(AppearanceBlock, wrinkle_part)},
           {"blood", offsetof(AppearanceBlock, blood)}}},
     };
     return blocks;

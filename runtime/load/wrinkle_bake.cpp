@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rig/canonical_face.h"
+#include "rig/fold_layout.h"
 #include "rig/texture_bytes.h"
 #include "rig/wrinkle_sources.h"
 
@@ -50,12 +50,16 @@ Result<BakedWrinkles> bake_wrinkle_set(const Face& face, const WrinkleBakeOption
                      " wrinkle zones; the masks hold " + std::to_string(most_wrinkle_zones)};
     }
     std::vector<WrinkleZoneField> places;
+    std::optional<Face> part;
     if (landmarks) {
-        if (const auto map =
-                canonical_map(face, skin, CanonicalFrame(*landmarks), settings.map_side, settings.map_side))
+        const CanonicalFrame frame(*landmarks);
+        const std::vector<std::uint8_t> outer = outer_triangles(face, skin, frame);
+        if (!options.whole_layout) set.part = part_of_zones(face, outer, frame, set.zones);
+        part = cropped(face, outer, set.part);
+        if (const auto map = canonical_map(*part, skin, frame, settings.map_side, settings.map_side))
             places = wrinkle_zone_fields(set.zones, *map);
     }
-    WrinkleMaps maps = bake_wrinkles(face, wanted, sources, settings, places);
+    WrinkleMaps maps = bake_wrinkles(part ? *part : face, wanted, sources, settings, places);
     baked.displacement_mm = std::move(maps.displacement_mm);
     baked.overlapping_texels = maps.raster.overlaps;
     set.masks = std::move(maps.masks);

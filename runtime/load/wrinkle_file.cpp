@@ -64,6 +64,15 @@ float derivative_of(float stored, float range) {
     return std::clamp((stored * 255.0F - 128.0F) / 127.0F, -1.0F, 1.0F) * range;
 }
 
+/// Beyond a part there are no folds; clamped lookups find the outermost texels.
+void clear_border(ScalarMap& mask) {
+    for (std::uint32_t y = 0; y < mask.height; ++y) {
+        for (std::uint32_t x = 0; x < mask.width; ++x) {
+            if (x == 0 || y == 0 || x + 1 == mask.width || y + 1 == mask.height) mask.at(x, y) = 0;
+        }
+    }
+}
+
 DerivativeMap derivatives_of(const Picture& picture, float range) {
     want_channels(picture, 2, "partial derivatives stand in red and green");
     DerivativeMap map(picture.image.width, picture.image.height);
@@ -84,9 +93,21 @@ Json read_description(const fs::path& folder) {
     Json json = Json::parse(file.begin(), file.end(), nullptr, false);
     if (json.is_discarded() || !json.is_object()) load::refuse("wrinkles.json", "not a JSON object");
     for (const auto& [key, value] : json.items()) {
-        if (key != "zones" && key != "range") load::refuse("wrinkles.json", "there is no key \"" + key + "\"");
+        if (key != "zones" && key != "range" && key != "layout_from" && key != "layout_to")
+            load::refuse("wrinkles.json", "there is no key \"" + key + "\"");
     }
     return json;
+}
+
+glm::vec2 corner_of(const Json& json, const char* key, glm::vec2 otherwise) {
+    const auto found = json.find(key);
+    if (found == json.end()) return otherwise;
+    glm::vec2 corner(-1);
+    if (found->is_array() && found->size() == 2 && (*found)[0].is_number() && (*found)[1].is_number())
+        corner = {(*found)[0].get<float>(), (*found)[1].get<float>()};
+    if (!(corner.x >= 0 && corner.x <= 1 && corner.y >= 0 && corner.y <= 1))
+        load::refuse(std::string("wrinkles.json: ") + key, "not an array of two numbers from 0 to 1");
+    return corner;
 }
 
 WrinkleSet read_set(const fs::path& folder) {
@@ -105,6 +126,10 @@ WrinkleSet read_set(const fs::path& folder) {
         load::refuse("wrinkles.json: range",
                      "not a number above 0, to " + std::to_string(static_cast<int>(largest_derivative_range)));
 
+    set.part = {corner_of(json, "layout_from", glm::vec2(0)), corner_of(json, "layout_to", glm::vec2(1))};
+    if (!glm::all(glm::lessThan(set.part.from, set.part.to)))
+        load::refuse("wrinkles.json: layout_to", "not beyond layout_from");
+
     set.derivatives = derivatives_of(read_picture(folder, derivatives_name), set.range);
     for (std::size_t m = 0; m * zones_a_mask < set.zones.size(); ++m) {
         const Picture picture = read_picture(folder, mask_names[m]);
@@ -121,6 +146,7 @@ WrinkleSet read_set(const fs::path& folder) {
             ScalarMap mask(picture.image.width, picture.image.height);
             for (std::size_t i = 0; i < mask.values.size(); ++i)
                 mask.values[i] = std::clamp(number_at(picture.image, i, c, 0), 0.0F, 1.0F);
+            if (!set.part.is_whole()) clear_border(mask);
             set.masks.push_back(std::move(mask));
         }
     }
@@ -167,7 +193,11 @@ Status write_wrinkles(const fs::path& folder, const WrinkleSet& wrinkles) {
         }
         if (Status s = write_png(folder / (std::string(mask_names[m]) + ".png"), masks); !s) return s;
     }
-    const Json json = {{"zones", wrinkles.zones}, {"range", wrinkles.range}};
+    Json json = {{"zones", wrinkles.zones}, {"range", wrinkles.range}};
+    if (!wrinkles.part.is_whole()) {
+        json["layout_from"] = {wrinkles.part.from.x, wrinkles.part.from.y};
+        json["layout_to"] = {wrinkles.part.to.x, wrinkles.part.to.y};
+    }
     return write_file(folder / "wrinkles.json", json.dump(2) + "\n");
 }
 

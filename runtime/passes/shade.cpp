@@ -12,6 +12,7 @@
 #include "runtime/environment_map.h"
 #include "runtime/frame.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/hair_core.h"
 #include "runtime/occlusion_gpu.h"
 #include "runtime/shadow_maps.h"
 #include "runtime/skin_tables.h"
@@ -89,19 +90,23 @@ void bind_maps(CharacterState& state, std::uint32_t bits) {
     }
 }
 
-void draw_primitive(CharacterState& state, const Primitive& primitive, std::size_t draw_index, bool mirrored,
-                    std::uint32_t bits) {
+void cull(const Face& face, const Primitive& primitive, bool mirrored) {
     const std::int32_t material = primitive.material;
-    const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : state.face.materials.size();
-    const bool double_sided = material >= 0 && state.face.materials[index].double_sided;
-    state.model.bind_draw(draw_index);
-    state.model.bind_material(state.face, material, state.material_kind[index], bits);
-    if (double_sided) {
+    if (material >= 0 && face.materials[static_cast<std::size_t>(material)].double_sided) {
         glDisable(GL_CULL_FACE);
     } else {
         glEnable(GL_CULL_FACE);
     }
     glFrontFace(mirrored ? GL_CW : GL_CCW);
+}
+
+void draw_primitive(CharacterState& state, const Primitive& primitive, std::size_t draw_index, bool mirrored,
+                    std::uint32_t bits) {
+    const std::int32_t material = primitive.material;
+    const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : state.face.materials.size();
+    state.model.bind_draw(draw_index);
+    state.model.bind_material(state.face, material, state.material_kind[index], bits);
+    cull(state.face, primitive, mirrored);
     draw_elements(state, primitive);
 }
 
@@ -109,6 +114,19 @@ void draw_nodes(CharacterState& state, bool blended, std::uint32_t bits) {
     each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t draw_index, bool mirrored) {
         if (is_blended(state.face, primitive) == blended) draw_primitive(state, primitive, draw_index, mirrored, bits);
     });
+}
+
+/// Writes the depth of blended hair where it is dense, after all that is solid.
+void draw_hair_cores(CharacterState& state) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t draw_index, bool mirrored) {
+        if (!is_blended(state.face, primitive) || !is_hair_card(state, primitive)) return;
+        bind_hair_core(state, primitive, SeenFrom::camera);
+        state.model.bind_draw(draw_index);
+        cull(state.face, primitive, mirrored);
+        draw_elements(state, primitive);
+    });
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 /// Attaches what shading writes and clears it.
@@ -154,6 +172,8 @@ void shade(CharacterState& state, const FrameGraph& graph) {
 
     glEnable(GL_DEPTH_TEST);
     draw_nodes(state, false, bits);
+    draw_hair_cores(state);
+    glDepthFunc(GL_LEQUAL);  // a core is shaded where its own depth stands
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     // What blends over skin takes its share of the light that scatters, and adds none.
@@ -162,6 +182,7 @@ void shade(CharacterState& state, const FrameGraph& graph) {
     glDepthMask(GL_FALSE);
     draw_nodes(state, true, bits);
     glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);

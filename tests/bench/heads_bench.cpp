@@ -5,8 +5,8 @@
 //
 //   bench_heads [FACE.glb [ROUNDS [HEIGHT]]]
 //
-// Pictures are three and a half times as wide as high; the heads stand side by
-// side, each as large as one alone. Counts of heads go round in every round.
+// Pictures are as wide as five heads, whole with their shoulders, side by side;
+// each is as large as one alone. Counts of heads go round in every round.
 
 #include <epoxy/gl.h>
 
@@ -73,7 +73,6 @@ int main(int argc, char** argv) {
     const std::string path = argc > 1 ? argv[1] : "";
     const int rounds = argc > 2 ? std::max(1, std::atoi(argv[2])) : 11;
     const auto height = static_cast<std::uint32_t>(argc > 3 ? std::clamp(std::atoi(argv[3]), 16, 1024) : 160);
-    const std::uint32_t width = height * 7 / 2;
     const Result<Face> face = load_face(path);
     if (!face) fail(face.error().message);
     if (!face->skins.empty())
@@ -82,13 +81,16 @@ int main(int argc, char** argv) {
              "nodes are");
     Result<Device> device = Device::headless(false);
     if (!device) fail(device.error().message);
-    Result<Offscreen> offscreen = Offscreen::create(*device, width, height, Output::display_srgb);
-    if (!offscreen) fail(offscreen.error().message);
 
     // Half the head beside it, so that outlines do not meet; all counts are seen
     // through the same camera.
-    const glm::vec3 size = moving_bounds(*face).size();
-    const float apart = 1.05F * size.x;
+    const Bounds bounds = moving_bounds(*face);
+    const float apart = 1.05F * bounds.size().x;
+    const float aspect = std::clamp(most_heads * apart / bounds.size().y, 1.0F, 16.0F);
+    const auto width = static_cast<std::uint32_t>(aspect * static_cast<float>(height));
+    Result<Offscreen> offscreen = Offscreen::create(*device, width, height, Output::display_srgb);
+    if (!offscreen) fail(offscreen.error().message);
+
     std::vector<Heads> heads;
     Camera camera;
     for (std::uint32_t count = 1; count <= most_heads; ++count) {
@@ -97,11 +99,7 @@ int main(int argc, char** argv) {
         const double scale = face_scale(*face).millimetres_a_unit;
         if (Status set = character->set("scattering.millimetres_a_unit", std::to_string(scale)); !set)
             fail(set.error().message);
-        if (count == 1) {
-            const float aspect = static_cast<float>(width) / static_cast<float>(height);
-            OrbitCamera orbit = character->framing(aspect);
-            camera = orbit.camera(aspect);
-        }
+        if (count == 1) camera = frame_head(bounds, {}, aspect).camera(aspect);
         heads.push_back({*std::move(character), 0, {}, {}, {}});
     }
     for (int round = -1; round < rounds; ++round) {

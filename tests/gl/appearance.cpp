@@ -8,6 +8,7 @@
 
 #include "rig/colour_difference.h"
 #include "runtime/appearance_file.h"
+#include "runtime/appearance_gpu.h"
 #include "runtime/appearance_probe.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/signed_texture.h"
@@ -98,6 +99,45 @@ TEST_F(Appearance, WrinklesEqualTheCpu) {
             EXPECT_LT(made->normal_error(weight).worst, 0.25 + step);
             ASSERT_TRUE(made->character().set("wrinkles.storage", "compressed"));
             EXPECT_LT(made->normal_error(weight).worst, 4 + 2 * step);
+        }
+    }
+}
+
+// Maps of a part of the layout: the same folds within it, and none outside.
+TEST_F(Appearance, WrinklesOfAPartOfTheLayoutEqualTheCpu) {
+    const Face face = expressive_face();
+    const Rig rig(face);
+    WrinkleSet set = waves(rig, 0.8F, 1);
+    set.part = {{0.25F, 0.5F}, {0.75F, 0.9F}};
+    for (ScalarMap& mask : set.masks) {
+        for (std::uint32_t i = 0; i < 64; ++i) {
+            if (i % 8 == 0 || i % 8 == 7 || i / 8 == 0 || i / 8 == 7) mask.values[i] = 0;
+        }
+    }
+    const auto probe = AppearanceProbe::create(device_, face, {set, std::nullopt});
+    ASSERT_NE(probe, nullptr);
+    ASSERT_TRUE(probe->character().set("wrinkles.storage", "half_float"));
+    EXPECT_LT(probe->normal_error(0.7F).worst, 0.4) << "degrees";
+    const std::vector<glm::vec3> normals = probe->normals(0.7F);
+    std::size_t bent = 0;
+    for (std::uint32_t i = 0; i < normals.size(); ++i) {
+        const glm::vec2 uv = (glm::vec2(i % AppearanceProbe::side, i / AppearanceProbe::side) + 0.5F) /
+                             static_cast<float>(AppearanceProbe::side);
+        const glm::vec2 in = set.part.within(uv);
+        const bool inside = in.x > 0 && in.x < 1 && in.y > 0 && in.y < 1;
+        if (!inside) {
+            EXPECT_EQ(normals[i], glm::vec3(0, 0, 1)) << i;
+        }
+        bent += normals[i] != glm::vec3(0, 0, 1) ? 1U : 0U;
+    }
+    EXPECT_GT(bent, normals.size() / 10);
+    EXPECT_LT(bent, normals.size() / 5);
+    // The alternative shows the same at full weight.
+    ASSERT_TRUE(probe->character().set("wrinkles.encoding", "differences"));
+    const std::vector<glm::vec3> other = probe->normals(0.7F);
+    for (std::uint32_t i = 0; i < normals.size(); ++i) {
+        if (normals[i] == glm::vec3(0, 0, 1)) {
+            EXPECT_EQ(other[i], normals[i]);
         }
     }
 }
@@ -203,6 +243,31 @@ TEST_F(AppearanceFrames, CostNothingAtRestAndSayWhy) {
     EXPECT_EQ(report_of(report, "blood").reason,
               "the blood is as it is at rest: the skin has the colour of its texture");
     for (const PassReport& pass : report.passes) EXPECT_NE(pass.name, "blend blood");
+    constexpr std::uint32_t bits = shade_wrinkles | shade_wrinkle_differences | shade_blood | shade_pigment_colour;
+    for (const auto& [permutation, program] : made.state().model.programs) EXPECT_EQ(permutation & bits, 0U);
+    EXPECT_FALSE(made.state().own<WrinkleTextures>().masks) << "nothing is uploaded for it either";
+    EXPECT_FALSE(made.state().own<BloodTextures>().pigments);
+
+    made.set(*made.control("anger"), 1);
+    test::draw(made, offscreen);
+    std::uint32_t used = 0;
+    for (const auto& [permutation, program] : made.state().model.programs) used |= permutation & bits;
+    EXPECT_EQ(used, shade_wrinkles | shade_blood);
+    EXPECT_EQ(std::ranges::count(made.state().report.passes, "blend blood", &PassReport::name), 1);
+    // Back at zero the passes are those of a face without maps.
+    made.set(*made.control("anger"), 0);
+    test::draw(made, offscreen);
+    Character bare = make_character(expressive_face());
+    bare.set(*bare.control("anger"), 1);
+    test::draw(bare, offscreen);
+    bare.set(*bare.control("anger"), 0);
+    test::draw(bare, offscreen);
+    const auto names = [](Character& of) {
+        std::vector<std::string_view> result;
+        for (const PassReport& pass : of.state().report.passes) result.push_back(pass.name);
+        return result;
+    };
+    EXPECT_EQ(names(made), names(bare));
 }
 
 TEST_F(AppearanceFrames, ChangeThePictureWhenTheyAct) {

@@ -56,9 +56,7 @@ protected:
         view_ = offscreen_.view();
         constexpr float aspect = static_cast<float>(width) / height;
         OrbitCamera camera = character_.framing(aspect);
-        // The face, without the bust below it.
-        camera.distance *= 0.55F;
-        camera.target_world.y += 0.25F * camera.scene_radius;
+        camera.distance *= 0.8F;
         view_.camera = camera.camera(aspect);
     }
 

@@ -45,7 +45,7 @@ glm::vec2 seen_at(const OrbitCamera& orbit, glm::vec3 place) {
 TEST(Framing, ABustIsFramedByItsHeadInAnyUnit) {
     for (const float unit : {1.0F, 0.001F, 30.0F}) {
         const Bounds bust{unit * glm::vec3(-220, -420, -130), unit * glm::vec3(220, 100, 110)};
-        const OrbitCamera orbit = frame_head(bust, 1.0 / static_cast<double>(unit), 1);
+        const OrbitCamera orbit = frame_head(bust, {1.0 / static_cast<double>(unit), "its pupils", false}, 1);
         const glm::vec2 crown = seen_at(orbit, unit * glm::vec3(0, 100, 0));
         const glm::vec2 chin = seen_at(orbit, unit * glm::vec3(0, -125, 0));
         EXPECT_LT(crown.y, 0.95F);
@@ -62,17 +62,18 @@ TEST(Framing, ABustIsFramedByItsHeadInAnyUnit) {
 
 TEST(Framing, AHeadIsFramedWholeAndNothingIsStillACamera) {
     const Bounds head{glm::vec3(-80, -140, -100), glm::vec3(80, 120, 100)};
-    const OrbitCamera orbit = frame_head(head, 1, 1);
+    const OrbitCamera orbit = frame_head(head, {1, "its pupils", false}, 1);
     EXPECT_EQ(orbit.target_world, head.centre());
     for (const glm::vec3 corner : {head.low, head.high}) {
         EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(seen_at(orbit, corner)), glm::vec2(1))));
     }
     const float infinity = std::numeric_limits<float>::infinity();
     for (const Bounds& bounds : {Bounds{}, Bounds{glm::vec3(-infinity), glm::vec3(infinity)}}) {
-        const OrbitCamera home = frame_head(bounds, 1, 1);
+        const OrbitCamera home = frame_head(bounds, {1, "its pupils", false}, 1);
         EXPECT_TRUE(std::isfinite(home.distance) && home.distance > 0);
     }
-    EXPECT_EQ(frame_head(head, 0, 1).target_world, head.centre()) << "without a scale everything is framed";
+    const Bounds bust{glm::vec3(-220, -420, -130), glm::vec3(220, 100, 110)};
+    EXPECT_EQ(frame_head(bust, {1, "a guess", true}, 1).target_world, bust.centre());
 }
 
 // --- promise: an exact omission changes no byte

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -131,6 +132,50 @@ TEST_F(Golden, FourPlacesOfSmaaOverTwoFrames) {
     view.camera = camera.camera(1);
     test::draw(character, offscreen, view);
     expect_golden("smaa_4x", test::draw(character, offscreen, view), bounds);
+}
+
+// Whole emotions on the default face: shape, folds and blood together.
+constexpr Bounds emotion_bounds = {
+    128, 0.02,
+    "hair, brows and lashes are thinner than a pixel, and a sample of 4 on one of their edges may fall on either side "
+    "(up "
+    "to half of the step from dark hair to lit skin); such pixels are about 2 % of the picture, and skin between them "
+    "only rounds"};
+
+class GoldenEmotions : public Golden {
+protected:
+    GoldenEmotions() : character_(loaded()), offscreen_(make_offscreen(width, height)) {
+        view_ = offscreen_.view();
+        constexpr float aspect = static_cast<float>(width) / height;
+        view_.camera = character_.framing(aspect).camera(aspect);
+    }
+    Image picture(const char* emotion, float strength) {
+        std::ranges::fill(character_.controls(), 0.0F);
+        character_.set(*character_.control(emotion), strength);
+        return test::draw(character_, offscreen_, view_);
+    }
+    Character loaded() {
+        Result<Character> character = Character::load(device_, fs::path(BLUSH_BINARY_DIR) / "assets/face.glb");
+        EXPECT_TRUE(character) << character.error().message;
+        return *std::move(character);
+    }
+    static constexpr std::uint32_t width = 192, height = 224;
+    Character character_;
+    Offscreen offscreen_;
+    View view_;
+};
+
+TEST_F(GoldenEmotions, AngerAndFearByHalfAndInFull) {
+    expect_golden("anger_half", picture("anger", 0.5F), emotion_bounds);
+    expect_golden("anger", picture("anger", 1), emotion_bounds);
+    expect_golden("fear_half", picture("fear", 0.5F), emotion_bounds);
+    const Image fear = picture("fear", 1);
+    expect_golden("fear", fear, emotion_bounds);
+    // The bounds tell the same face without its blood, and without its shape, apart.
+    ASSERT_TRUE(character_.set("blood.shown", "no"));
+    EXPECT_FALSE(within(difference_of(fear, picture("fear", 1)), emotion_bounds));
+    ASSERT_TRUE(character_.set("blood.shown", "yes"));
+    EXPECT_FALSE(within(difference_of(fear, picture("fear", 0.9F)), emotion_bounds));
 }
 
 TEST_F(Golden, TheBoundsTellAnotherFaceApart) {

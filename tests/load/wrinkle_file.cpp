@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -101,6 +102,31 @@ TEST_F(WrinkleFile, WhatIsWrongIsNamed) {
     expect_refused("wrinkle_mask_2.png: is 5x5 texels and wrinkle_mask_1 4x4; masks are of one size");
     write("wrinkle_mask_2.png", "not a picture");
     EXPECT_THAT(load_wrinkles(folder()).error().message, testing::HasSubstr("wrinkle_mask_2.png: "));
+}
+
+TEST_F(WrinkleFile, APartOfTheLayoutIsKeptAndHasNoFoldsAtItsBorder) {
+    WrinkleSet set = small_set(1);
+    set.part = {{0.25F, 0.5F}, {0.75F, 1}};
+    for (ScalarMap& mask : set.masks) std::ranges::fill(mask.values, 1.0F);
+    ASSERT_TRUE(write_wrinkles(folder(), set));
+    const Result<WrinkleSet> read = load_wrinkles(folder());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->part, set.part);
+    for (const ScalarMap& mask : read->masks) {
+        for (std::uint32_t i = 0; i < 16; ++i) {
+            const bool border = i % 4 == 0 || i % 4 == 3 || i / 4 == 0 || i / 4 == 3;
+            EXPECT_EQ(mask.values[i], border ? 0 : 1);
+        }
+    }
+    const std::string start = R"({"zones": ["one"], )", numbers = "not an array of two numbers from 0 to 1";
+    write("wrinkles.json", start + R"("layout_from": 0.5})");
+    expect_refused("wrinkles.json: layout_from: " + numbers);
+    write("wrinkles.json", start + R"("layout_to": [0.5, 1.5]})");
+    expect_refused("wrinkles.json: layout_to: " + numbers);
+    write("wrinkles.json", start + R"("layout_to": ["a", "b"]})");
+    expect_refused("wrinkles.json: layout_to: " + numbers);
+    write("wrinkles.json", start + R"("layout_from": [0.5, 0], "layout_to": [0.5, 1]})");
+    expect_refused("wrinkles.json: layout_to: not beyond layout_from");
 }
 
 TEST_F(WrinkleFile, ThirteenZonesAreTooMany) {

@@ -232,7 +232,8 @@ TEST(Relief, IsFinestAboutTheEyeAndUprightOnTheLips) {
 
 TEST(HairCards, StandOnTheScalpWithinTheirBudget) {
     const HairCards cards = make_hair_cards();
-    EXPECT_LE(cards.mesh.positions.size(), 8'000U);
+    EXPECT_LE(cards.mesh.positions.size(), 16'000U);
+    std::printf("%zu vertices, %zu triangles\n", cards.mesh.positions.size(), cards.mesh.triangles.size());
     EXPECT_GE(cards.mesh.positions.size(), 3'000U);
     for (std::size_t v = 0; v < cards.roots.size(); ++v) {
         ASSERT_GT(above_hairline(cards.roots[v]), -3);

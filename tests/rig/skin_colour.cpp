@@ -189,34 +189,13 @@ TEST(SkinColour, HasTheReflectancesOfTheColorCheckersSkins) {
     }
 }
 
-// What is commonly published of skin, recalled and rounded: Angelopoulou 2001 (backs of hands) and Cooksey and Allen
-// 2013 (forearms) plot reflectances near these at 450, 550 and 650 nm. They hold some percent of gloss that the model
-// leaves out, and people differ, so the tolerance is wide: a tenth for light skin, a twentieth for dark skin.
-TEST(SkinColour, IsNearMeasuredSkin) {
+// The W of light skin: minima at hemoglobin's two bands, a hump between; dark skin shows next to none of it.
+// (skin_published.cpp compares with people.)
+TEST(SkinColour, ShowsTheBandsOfBloodThroughLightSkin) {
     const auto light = skin_reflectance(skin(0.012, 0.012)), dark = skin_reflectance(skin(0.25, 0.012));
-    EXPECT_NEAR(light[sample_at(450)], 0.27, 0.1);
-    EXPECT_NEAR(light[sample_at(550)], 0.33, 0.1);
-    EXPECT_NEAR(light[sample_at(650)], 0.57, 0.1);
-    EXPECT_NEAR(dark[sample_at(450)], 0.06, 0.05);
-    EXPECT_NEAR(dark[sample_at(550)], 0.08, 0.05);
-    EXPECT_NEAR(dark[sample_at(650)], 0.17, 0.05);
-    // The W of light skin: minima at hemoglobin's two bands, a hump between; dark skin shows next to none of it.
     const auto hump = [](const auto& r) { return r[sample_at(560)] / ((r[sample_at(545)] + r[sample_at(575)]) / 2); };
     EXPECT_GT(hump(light), 1.03);
     EXPECT_LT(std::abs(hump(dark) - 1), std::abs(hump(light) - 1));
-}
-
-// Faces measured in L*a*b* have L* 30 to 70, a* 8 to 16, b* 10 to 22 (Xiao et al. 2017 and others, recalled).
-TEST(SkinColour, LiesWithinTheColoursOfFaces) {
-    for (const double melanin : {0.01, 0.03, 0.08, 0.2}) {
-        const glm::dvec3 lab = lab_from_srgb_linear(skin_colour_linear(skin(melanin, 0.02)));
-        EXPECT_GT(lab.x, 30);
-        EXPECT_LT(lab.x, 70);
-        EXPECT_GT(lab.y, 8);
-        EXPECT_LT(lab.y, 16);
-        EXPECT_GT(lab.z, 9);
-        EXPECT_LT(lab.z, 22);
-    }
 }
 
 TEST(SkinColourTable, IsTheModelAtItsNodes) {

@@ -35,6 +35,12 @@ void print(const BakedWrinkles& baked) {
     std::printf("%zu zones from %zu poses; %.4g mm a unit; steepest fold %.0f degrees; range %.3g\n",
                 baked.set.zones.size(), baked.poses, baked.millimetres_a_unit, baked.steepest_degrees,
                 static_cast<double>(baked.set.range));
+    const LayoutPart& part = baked.set.part;
+    if (!part.is_whole()) {
+        std::printf("the maps show u %.3f to %.3f, v %.3f to %.3f of the layout: where skin folds\n",
+                    static_cast<double>(part.from.x), static_cast<double>(part.to.x), static_cast<double>(part.from.y),
+                    static_cast<double>(part.to.y));
+    }
     if (baked.saturated_texels > 0) {
         std::printf("note: %zu texels are steeper than the range holds; they are held to it\n", baked.saturated_texels);
     }
@@ -59,6 +65,7 @@ Status bake(const Options& options) {
     settings.maps.seed = options.baker.whole<std::uint32_t>("seed");
     settings.range = static_cast<float>(options.baker.number("range"));
     settings.millimetres_a_unit = options.millimetres_a_unit;
+    settings.whole_layout = options.baker.choice("layout") == "whole";
     const Result<BakedWrinkles> baked = bake_wrinkle_set(*face, settings);
     if (!baked) return baked.error();
 

@@ -14,10 +14,11 @@ namespace blush::tool {
 
 class BakerOptions {
 public:
-    /// Adds --NAME for each number among the effect's settings ("mask_size" becomes --mask-size).
+    /// Adds --NAME for each of the effect's settings ("mask_size" becomes --mask-size).
     void add_to(CLI::App& command, const Effect& effect);
 
     double number(std::string_view setting) const { return values_.find(setting)->second; }
+    const std::string& choice(std::string_view setting) const { return choices_.find(setting)->second; }
     template <class Whole>
     Whole whole(std::string_view setting) const {
         return static_cast<Whole>(number(setting));
@@ -25,6 +26,7 @@ public:
 
 private:
     std::map<std::string, double, std::less<>> values_;
+    std::map<std::string, std::string, std::less<>> choices_;
 };
 
 }  // namespace blush::tool

@@ -32,7 +32,7 @@ BrowCards make_brow_cards(const Head& head) {
     Random random(71);
     for (const double side : {1.0, -1.0}) {
         for (int n = 0; n < cards_a_side; ++n) {
-            const double s = 0.97 * std::pow((n + random.between(0, 1)) / cards_a_side, 0.9);
+            const double s = 0.97 * std::pow((n + random.between(0, 1)) / cards_a_side, 0.82);
             const BrowLine line = brow_line(s);
             // Dense in the middle, thin at the edges.
             const double across = 0.75 * (random.between(-1, 1) + random.between(-1, 1));
@@ -40,7 +40,8 @@ BrowCards make_brow_cards(const Head& head) {
             const double lean = line.lean - 0.55 * across * smooth_step(0.08, 0.4, s) + random.between(-0.2, 0.2);
             const Vec2 along(std::cos(lean), std::sin(lean)), beside(-along.y, along.x);
             const double length = mix(7.4, 5.0, s) * random.between(0.8, 1.15) * mix(0.6, 1, smooth_step(0, 0.18, s));
-            const double half_width = mix(1.05, 0.75, s) * random.between(0.85, 1.15);
+            const double half_width =
+                mix(1.05, 0.75, s) * random.between(0.85, 1.15) * mix(0.6, 1, smooth_step(0, 0.2, s));
             const Vec2 root = line.middle + Vec2(0, across * line.half_width) - along * (0.30 * length);
             const double lift = random.between(0.35, 0.8);
             const bool flipped = random.unit() < 0.5;

@@ -26,9 +26,9 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
     std::future<std::vector<ShapeTarget>> shapes =
         std::async(std::launch::async, [&head] { return head_targets(head); });
 
-    enum MaterialIndex : std::size_t { skin, eye, tooth, gum, tongue, lash, brow, hair };
+    enum MaterialIndex : std::size_t { skin, eye, tooth, gum, tongue, lash, brow, hair, caruncle };
     const int eye_texture_side = texture_side * 2 / 3;
-    face.materials.resize(8);
+    face.materials.resize(9);
     const SkinColourTable table;
     const SurfaceTexels texels(head, texture_side), coarse_texels(head, texture_side / 2);
     face.pigments = paint_pigments(texels, person.skin, table);
@@ -41,6 +41,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
                             .occluded = true};
     face.materials[eye] = {
         .name = "eye", .roughness = 0.1, .base_color_png = png(paint_eye(eye_texture_side, vec3(person.skin.eyes)))};
+    face.materials[caruncle] = {.name = "caruncle", .base_color_linear = {0.46, 0.17, 0.14, 1}, .roughness = 0.2};
     face.materials[tooth] = {.name = "teeth", .roughness = 0.25, .base_color_png = png(paint_teeth(64))};
     face.materials[gum] = {.name = "gums", .roughness = 0.35, .base_color_png = png(paint_gum(128))};
     face.materials[tongue] = {.name = "tongue", .roughness = 0.4, .base_color_png = png(paint_tongue(128))};
@@ -55,7 +56,7 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
     };
     face.materials[hair] = strands("hair", 1, paint_hair_strands(512));
     face.materials[hair].double_sided = false;  // its strips have triangles for both sides
-    face.materials[brow] = strands("brows", 0.42, paint_brow_strands(128));
+    face.materials[brow] = strands("brows", 0.55, paint_brow_strands(128));
     face.materials[lash] = strands("lashes", 0.08, paint_lash_strands(128));
 
     face.nodes.push_back({.name = "head"});
@@ -70,6 +71,8 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
     const Mesh ball = make_eye();
     add("eyeLeft", ball, eye, {}, landmark::eye_centre);
     add("eyeRight", ball, eye, {}, mirrored(landmark::eye_centre));
+
+    add("caruncles", make_caruncles(), caruncle, {});
 
     const Mesh lower_teeth = make_teeth(Jaw::lower), lower_gum = make_gum(Jaw::lower), body = make_tongue();
     add("teethUpper", make_teeth(Jaw::upper), tooth, {});

@@ -9,9 +9,10 @@ namespace {
 
 using namespace landmark;
 
-constexpr Vec3 neck_origin{0, -150, -33}, chest_origin{0, -262, -40};
-constexpr double neck_share = 0.62;  // of the rows from the chin to the cut
-constexpr double cut_elevation_front = radians(30), cut_elevation_side = radians(39), cut_elevation_back = radians(56);
+// The bust ends in the level plane through chest_origin.
+constexpr Vec3 neck_origin{0, -128, -34}, chest_origin{0, -214, -58};
+constexpr double neck_share = 0.4, shoulder_share = 0.72;  // of the rows from the chin to the cut
+constexpr double shoulder_elevation = radians(44), nape_elevation = radians(-22);
 constexpr double chin_elevation = radians(-49), brow_elevation = radians(28);
 
 Vec3 direction(double azimuth, double elevation) {
@@ -128,17 +129,17 @@ Vec3 CoarseHead::on_curve(int i, double elevation, Height y) const {
     return p;
 }
 
-/// Below the chin the fan's origin sinks through the neck into the chest while its rays level out and then rise, so
-/// that they meet the shoulders from below: share 0 at the chin, 1 at the cut.
+/// Below the chin the fan's origin sinks through the neck to the plane of the cut while its rays level out, then rise
+/// to meet the shoulders from below and come down into that plane: share 0 at the chin, 1 at the cut.
 Vec3 CoarseHead::below_chin(int i, double share) const {
     const double azimuth = grid_.azimuths[static_cast<std::size_t>(i)];
-    const double neck = std::min(1.0, share / neck_share),
-                 chest = std::max(0.0, (share - neck_share) / (1 - neck_share));
-    const Vec3 origin = glm::mix(glm::mix(fan_origin, neck_origin, neck), chest_origin, chest);
-    const double side = smooth_step(radians(15), radians(85), azimuth),
-                 back = smooth_step(radians(90), radians(180), azimuth);
-    const double rise = mix(mix(cut_elevation_front, cut_elevation_side, side), cut_elevation_back, back);
-    const double elevation = mix(mix(chin_elevation, 0, neck), rise, chest);
+    const double neck = std::min(1.0, share / neck_share);
+    const double shoulder = smooth_step(neck_share, shoulder_share, share);
+    const double chest = std::max(0.0, (share - shoulder_share) / (1 - shoulder_share));
+    const Vec3 origin = glm::mix(glm::mix(fan_origin, neck_origin, neck), chest_origin, shoulder);
+    // Rays to the nape stay inclined, so that its rows do not climb back.
+    const double level = mix(0, nape_elevation, smooth_step(radians(90), radians(180), azimuth));
+    const double elevation = mix(mix(mix(chin_elevation, level, neck), shoulder_elevation, shoulder), 0, chest);
     return leave_head(origin, direction(azimuth, elevation));
 }
 

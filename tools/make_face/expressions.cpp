@@ -69,8 +69,8 @@ public:
         // lips level, so that the mouth bends as a bow and not as a V.
         const Pulls smile = {{mouth_corner, {13, 13, 20}, {7.4, 9.0, -6.8}},
                              {{11, -69, 92}, {9, 12, 16}, {1.6, -0.2, -1.4}},
-                             {{11, -62, 93}, {13, 4.5, 12}, {0, -1.9, -1.6}, Pull::upper},
-                             {{11, -79, 90}, {13, 5.5, 12}, {0, 2.2, -0.4}, Pull::lower},
+                             {{11, -62, 93}, {13, 4.5, 12}, {0, -1.5, -1.6}, Pull::upper},
+                             {{11, -79, 90}, {13, 5.5, 12}, {0, 0.9, -0.4}, Pull::lower},
                              {{36, -38, 66}, {15, 12, 20}, {1.6, 6.0, 5.0}},
                              {{38, -54, 64}, {12, 12, 18}, {2.2, 4.6, 0.2}},
                              {{12, -41, 95}, {5, 6, 10}, {1.3, 0.8, -0.4}},
@@ -169,7 +169,7 @@ public:
             return lids_.move(v, {.upper_degrees = -4, .lower_degrees = 12, .sideways_mm = -1.0}) +
                    pulled(v, cheek_raise * 0.35);
         });
-        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 10, .lower_degrees = -3}); });
+        add_sides("eyeWide", [&](Index v) { return lids_.move(v, {.upper_degrees = 8, .lower_degrees = -2}); });
         add_whole("jawForward", [&](Index v) { return jaw_[v] * Vec3(0, -0.6, 6); });
         add_sides("jaw", [&](Index v) { return jaw_[v] * Vec3(7, 0, 0); });
         add_whole("jawOpen", [&](Index v) { return jaw_opened(rest(v), jaw_[v]) - rest(v); });

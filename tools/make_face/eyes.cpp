@@ -33,6 +33,32 @@ Mesh make_eye() {
     return mesh;
 }
 
+Mesh make_caruncles() {
+    // Some 5 mm long and 3 mm high, between the lids and before the ball.
+    constexpr int around = 14, rings = 9;
+    constexpr Vec3 centre{19.4, -2.5, 74.6}, radii{2.7, 1.9, 2.3};
+    Mesh mesh;
+    for (int ring = 0; ring <= rings; ++ring) {
+        const double polar = pi * ring / rings;
+        for (int k = 0; k < around; ++k) {
+            const double turn = 2 * pi * k / around;
+            const Vec3 direction(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));
+            mesh.add(centre + radii * direction, {static_cast<double>(k) / around, static_cast<double>(ring) / rings});
+        }
+    }
+    for (Index ring = 0; ring < rings; ++ring) {
+        for (Index k = 0; k < around; ++k) {
+            const auto at = [&](Index row, Index j) {
+                return row == 0 || row == rings ? row * around : row * around + j % around;
+            };
+            mesh.add_quad(at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1));
+        }
+    }
+    mirror_across_x(mesh);
+    mesh.normals = smooth_normals(mesh);
+    return mesh;
+}
+
 Lashes make_lashes(const Head& head) {
     constexpr int segments = 4;
     Lashes lashes;

@@ -17,6 +17,8 @@ double eye_radius_at(double polar);
 
 /// An eye about its own centre, looking along +Z. Texture: polar about the pupil, the texture's edge at 100 degrees.
 Mesh make_eye();
+/// The pink flesh in both eyes' inner corners, in the head's space.
+Mesh make_caruncles();
 inline constexpr double eye_texture_angle = 100 * pi / 180;
 
 /// Lashes of both eyes: each a tapering strip. `edge` gives for every vertex the vertex of the head's lid it hangs on;

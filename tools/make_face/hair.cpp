@@ -22,7 +22,7 @@ double hairline(double azimuth_degrees) {
     return std::end(knots)[-1].y;
 }
 
-constexpr double fade_begin = -6, fade_end = 14;  // of the hairline, mm
+constexpr double fade_begin = -6, fade_end = 10;  // of the hairline, mm
 
 /// Coordinates along and across the strands, which run from the whorl at the crown's back.
 struct Strand {
@@ -44,6 +44,8 @@ Vec3 hair_whorl() { return glm::normalize(Vec3(0.12, 0.80, -0.62)); }
 
 double hair_cover(const Vec3& p) { return smooth_step(fade_begin, fade_end, above_hairline(p)); }
 
+double hair_thickness(const Vec3& p) { return hair_cover(p) * mix(0.4, 1.2, smooth_step(-40, 95, p.y)); }
+
 double hair_paint(const Vec3& p) {
     const double above = above_hairline(p);
     if (above < 2 * fade_begin) return 0;
@@ -58,13 +60,12 @@ void grow_hair(Head& head) {
     for (Index v = 0; v < head.mesh.positions.size(); ++v) {
         Vec3& p = head.mesh.positions[v];
         if (head.tags[v].part != Part::skin || p.x < 0 || head.image[v] < v) continue;
-        const double cover = hair_cover(p);
-        if (cover <= 0) continue;
-        const double length = mix(0.4, 1.2, smooth_step(-40, 95, p.y));  // strips stand on it
+        if (hair_cover(p) <= 0) continue;
+        const double thickness = hair_thickness(p);  // strips stand on it
         const Strand s = strand({std::abs(p.x), p.y, p.z});
         const double tuft = noise({std::cos(s.across) * 7, std::sin(s.across) * 7, s.along * 2.5});
         const bool middle = p.x == 0;
-        p += head.mesh.normals[v] * (cover * length * (1 + 0.10 * tuft));
+        p += head.mesh.normals[v] * (thickness * (1 + 0.10 * tuft));
         if (middle) p.x = 0;
         if (head.image[v] != v) head.mesh.positions[head.image[v]] = mirrored(p);
     }

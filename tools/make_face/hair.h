@@ -17,6 +17,9 @@ Vec3 hair_whorl();
 /// How much of the skin's colour the hair hides: single strands at the hairline, all of it farther in.
 double hair_paint(const Vec3& p);
 
+/// Millimetres by which grow_hair() lifts the scalp, in the mean.
+double hair_thickness(const Vec3& p);
+
 /// Lifts the scalp to the thick of the hair, in strands that run from the crown's whorl; hair_cards.h stands on it.
 void grow_hair(Head& head);
 

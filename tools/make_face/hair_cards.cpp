@@ -49,10 +49,10 @@ struct Layer {
 
 HairCards make_hair_cards(const HairStyle& style) {
     constexpr Layer layers[] = {
-        {320, 2.2, 1.3, true, 1.2, 1},           {320, 3.8, 2.0, true, 1.1, 2},
-        {900, 2.0, 1.2, false, 0.9, -2, 8, 0.7},  // the hairline: narrow and sparse
-        {300, 5.4, 2.7, false, 1.0, 4},          {270, 7.0, 3.4, false, 0.9, 6},
-        {110, 8.6, 4.2, false, 0.7, 9},
+        {320, 2.2, 1.3, true, 1.8, 8, 1000, 0.5}, {480, 3.8, 2.0, false, 1.3, 2},
+        {1100, 2.0, 1.2, false, 0.8, -3, 7, 0.7},  // the hairline: narrow and sparse
+        {560, 5.4, 2.7, false, 1.1, 4},           {480, 7.0, 3.4, false, 1.0, 6},
+        {240, 8.6, 4.2, false, 0.8, 9},
     };
     HairCards cards;
     Random random(5);
@@ -68,7 +68,8 @@ HairCards make_hair_cards(const HairStyle& style) {
             direction += 0.05 * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
             const double length_luck = random.unit(), width_luck = random.unit(), roll = random.between(-1, 1),
                          turn_luck = random.between(-1, 1), lift_luck = random.between(0.75, 1.25);
-            const int clump = static_cast<int>(random.between(0, hair_clumps));
+            const int clump = layer.reach < 100 ? static_cast<int>(random.between(0, sparse_hair_clumps))
+                                                : static_cast<int>(random.between(sparse_hair_clumps, hair_clumps));
             const bool flipped = random.unit() < 0.5;
             if (direction.y < -0.75) continue;
             Vec3 q = leave_head(skull_centre, glm::normalize(direction));
@@ -80,14 +81,14 @@ HairCards make_hair_cards(const HairStyle& style) {
             const double grown = mix(0.62, 1, smooth_step(0, 16, above));
             const double length = style.length * layer.length * grown *
                                   mix(mix(17, 27, smooth_step(-50, 40, q.y)), 42, top) * mix(0.82, 1.2, length_luck);
-            const double half_width = 0.5 * layer.width * mix(8.5, 12, top) * mix(0.8, 1.2, width_luck) *
+            const double half_width = 0.5 * layer.width * mix(4.6, 6.4, top) * mix(0.8, 1.2, width_luck) *
                                       mix(0.5, 1, smooth_step(0, 14, above));
             const double raised = style.lift * lift_luck * mix(layer.side_height, layer.top_height, top) *
                                   mix(0.45, 1, smooth_step(0, 22, above)) *
                                   (1 - 0.45 * bell(glm::distance(q, whorl_place), 30));
             const int segments = top > 0.5 ? 5 : 3;
             // At the hairline nothing lies above that would shade it.
-            const ClumpArea area = hair_clump(clump, layer.shaded && above > 12);
+            const ClumpArea area = hair_clump(clump, layer.shaded && above > 34);
             const double left = flipped ? area.right : area.left, right = flipped ? area.left : area.right;
             const Vec3 root = q;
             const auto first = static_cast<Index>(cards.mesh.positions.size());
@@ -96,9 +97,9 @@ HairCards make_hair_cards(const HairStyle& style) {
                 const Vec3 normal = head_normal(q);
                 Vec3 way = combed(q, normal, style);
                 const Vec3 beside = glm::cross(way, normal);
-                way = glm::normalize(way + beside * (0.28 * turn_luck));
+                way = glm::normalize(way + beside * (0.20 * turn_luck));
                 // Hair leaves the scalp at a slant, then lies on what is below it; tips stand off a little.
-                const double off = raised * (0.12 + 0.88 * smooth_step(0, 0.45, t)) + 1.6 * style.lift * t * t * roll;
+                const double off = hair_thickness(q) + raised * (0.12 + 0.88 * smooth_step(0, 0.45, t)) + 1.6 * style.lift * t * t * roll;
                 const Vec3 side = glm::normalize(glm::cross(way, normal) + normal * (0.35 * roll));
                 const double half = half_width * mix(0.85, 1.0, smooth_step(0, 0.3, t)) * mix(1, 0.75, t);
                 const Vec3 p = q + normal * off;

@@ -13,11 +13,13 @@ namespace {
 using namespace landmark;
 
 // The texture: the chart stands in the middle, ears and the mouth's inside lie in corners that it leaves free.
-constexpr double texture_per_mm = 1 / 340.0, chart_bottom_v = 0.99;
+constexpr double texture_per_mm = 1 / 340.0, chart_bottom_v = 0.93;
 constexpr Vec2 ear_uv_corner{0.80, 0.01};
 constexpr double ear_uv_side = 0.19;
 constexpr Vec2 mouth_uv_half{0.11, 0.07};
 constexpr double mouth_uv_y = 0.10;
+constexpr Vec2 cut_uv{0.635, 0.10};  // where the cut's middle lies
+constexpr double cut_uv_per_mm = 0.001;
 
 /// Catmull and Rom's cubic through places at 0, 1, 2, ...
 Vec3 along(std::span<const Vec3> places, double s) {
@@ -39,6 +41,7 @@ public:
         store();
         line_lids();
         line_mouth();
+        close_bust();
         add_left_ear(head_.mesh, fineness, ear_uv_corner, ear_uv_side);
         VertexTag ear;
         ear.part = Part::ear;
@@ -50,6 +53,8 @@ public:
         std::vector<char> seam(head_.mesh.positions.size(), 0);
         for (int j = 0; j < grid_.last_row(); ++j) seam[id(grid_.last_column(), j)] = 1;
         for (const Index v : poles()) seam[v] = 1;
+        for (Index v = 0; v < seam.size(); ++v)
+            if (head_.tags[v].part == Part::cut && head_.mesh.positions[v].x == 0) seam[v] = 1;
         return seam;
     }
     /// The copies of the pole, one a column.
@@ -315,6 +320,36 @@ private:
         lower.push_back(upper.back());  // the corner is one place
         add_lining(upper, lower, std::max(7, static_cast<int>(std::lround(knots * fineness_))), Part::mouth_lining,
                    place, texture, [&](std::size_t k, double depth) { return k == last || depth == 1; });
+    }
+
+    /// A level face inside the edge of the cut. Its rim doubles the skin's, so that the edge is a sharp one.
+    void close_bust() {
+        const int rings = std::max(2, static_cast<int>(std::lround(3 * fineness_)));
+        const Vec3 middle{0, positions_[id(0, 0)].y,
+                          mix(positions_[id(0, 0)].z, positions_[id(grid_.last_column(), 0)].z, 0.5)};
+        const auto add = [&](const Vec3& p) {
+            const Index v = head_.mesh.add(p, cut_uv + cut_uv_per_mm * Vec2(p.x, middle.z - p.z));
+            VertexTag tag;
+            tag.part = Part::cut;
+            tag.edge = v;
+            tag.lip = tag.lid = -1;
+            head_.tags.push_back(tag);
+            return v;
+        };
+        std::vector<Index> outer;
+        for (int i = 0; i <= grid_.last_column(); ++i) outer.push_back(add(positions_[id(i, 0)]));
+        for (int ring = 1; ring <= rings; ++ring) {
+            const double inward = static_cast<double>(ring) / rings;
+            std::vector<Index> inner;
+            for (std::size_t i = 0; i < outer.size(); ++i) {
+                const bool one = ring == rings && i > 0;
+                inner.push_back(one ? inner.front()
+                                    : add(glm::mix(positions_[id(static_cast<int>(i), 0)], middle, inward)));
+            }
+            for (std::size_t i = 0; i + 1 < outer.size(); ++i)
+                head_.mesh.add_quad(inner[i], inner[i + 1], outer[i + 1], outer[i]);
+            outer = inner;
+        }
     }
 
     const CoarseHead& coarse_;

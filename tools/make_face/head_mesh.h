@@ -10,7 +10,8 @@
 
 namespace blush::make_face {
 
-enum class Part : std::uint8_t { skin, lid_lining, mouth_lining, ear };
+/// `cut`: the level face that closes the bust below.
+enum class Part : std::uint8_t { skin, lid_lining, mouth_lining, ear, cut };
 
 /// What the expression models need to know of a vertex besides its place.
 struct VertexTag {

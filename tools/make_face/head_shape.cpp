@@ -1,5 +1,7 @@
 #include "tools/make_face/head_shape.h"
 
+#include <span>
+
 namespace blush::make_face {
 namespace {
 
@@ -24,47 +26,67 @@ double join(double a, double b, double k) {
     return std::min(a, b) - h * h * k / 4;
 }
 
+/// Catmull and Rom's cubic through the knots (x rising), y as at the ends beyond them.
+double through(std::span<const Vec2> knots, double x) {
+    if (x <= knots.front().x) return knots.front().y;
+    if (x >= knots.back().x) return knots.back().y;
+    std::size_t k = 0;
+    while (x > knots[k + 1].x) ++k;
+    const auto slope = [&](std::size_t n) {
+        if (n == 0 || n + 1 == knots.size()) return 0.0;
+        return (knots[n + 1].y - knots[n - 1].y) / (knots[n + 1].x - knots[n - 1].x);
+    };
+    const double span = knots[k + 1].x - knots[k].x, t = (x - knots[k].x) / span;
+    const double a = slope(k) * span, b = slope(k + 1) * span, rise = knots[k + 1].y - knots[k].y;
+    return knots[k].y + t * (a + t * (3 * rise - 2 * a - b + t * (a + b - 2 * rise)));
+}
+
 double carve(double a, double hollow, double k) { return -join(-a, hollow, k); }
 
 double skull(const Vec3& p) {
     double d = ellipsoid(p, {0, 36, -8}, {74, 78, 88});
-    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);           // frontal bone
-    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);          // midface
-    d = join(d, ellipsoid(p, {43, -22, 50}, {21, 15, 23}), 22);         // zygomatic bone
-    d = join(d, cone(p, {36.5, -68, 8}, {9, -97.5, 65}, 12, 12), 22);   // body of the mandible
-    d = join(d, cone(p, {46, -30, 0}, {36.5, -66, 8}, 12, 12), 20);     // its ramus
-    d = join(d, ellipsoid(p, {0, -80, 30}, {42, 32, 46}), 20);          // floor of the mouth
-    d = join(d, ellipsoid(p, {0, -97.5, 69}, {15.5, 13.5, 15.0}), 16);  // chin
-    d = join(d, ellipsoid(p, {0, -50, -44}, {45, 46, 42}), 20);         // nape
-    d = carve(d, ellipsoid(p, {79, -13, -10}, {11, 15, 11}), 7);        // behind the concha
+    d = join(d, ellipsoid(p, {0, 40, 34}, {57, 56, 56}), 22);             // frontal bone
+    d = join(d, ellipsoid(p, {0, -20, 22}, {59, 60, 60}), 20);            // midface
+    d = join(d, ellipsoid(p, {52, 2, 20}, {13.5, 28, 30}), 18);           // temple
+    d = join(d, ellipsoid(p, {40.5, -21, 50}, {17.5, 13, 22.5}), 20);     // zygomatic bone
+    d = join(d, cone(p, {38, -67, 8}, {9, -95, 65}, 12.5, 11.5), 20);     // body of the mandible
+    d = join(d, cone(p, {46, -30, 0}, {38, -66, 8}, 12, 12), 20);         // its ramus
+    d = join(d, ellipsoid(p, {0, -76, 30}, {41, 32, 46}), 20);            // floor of the mouth
+    d = join(d, ellipsoid(p, {0, -95.5, 69.5}, {15.5, 12.5, 14.5}), 16);  // chin
+    d = join(d, ellipsoid(p, {0, -46, -36}, {46, 44, 40}), 20);           // nape
+    d = carve(d, ellipsoid(p, {77, -11, -5}, {14.5, 18, 14}), 7);         // behind the concha
     return d;
 }
 
 double neck_and_shoulders(const Vec3& p, double d) {
-    double n = cone({p.x, p.y, p.z * 0.96}, {0, -80, -24}, {0, -205, -38}, 45, 50);
-    n = join(n, ellipsoid(p, {0, -142, 10}, {12, 20, 14}), 16);          // larynx
-    n = join(n, cone(p, {24, -96, -62}, {142, -212, -50}, 22, 20), 46);  // trapezius
-    double chest = join(ellipsoid(p, {0, -296, -34}, {165, 112, 80}), ellipsoid(p, {118, -262, -44}, {70, 62, 52}), 30);
-    chest = join(chest, ellipsoid(p, {62, -236, -38}, {78, 52, 46}), 30);  // what fills the shoulder
-    const double clavicle =
-        join(cone(p, {18, -206, 33}, {70, -199, 26}, 4.5, 5), cone(p, {70, -199, 26}, {150, -192, -22}, 5, 7), 10);
-    chest = join(chest, clavicle, 9);
-    n = join(n, chest, 26);
-    n = join(n, cone(p, {50, -48, -22}, {34, -120, -8}, 8, 8), 14);  // sternocleidomastoid
-    n = join(n, cone(p, {34, -120, -8}, {15, -196, 13}, 8, 5), 24);
-    n = carve(n, ellipsoid(p, {0, -199, 40}, {9, 9, 11}), 12);    // sternal notch
-    n = carve(n, ellipsoid(p, {52, -186, 22}, {26, 8, 18}), 16);  // over the clavicle
-    return join(d, n, 20);
+    // The neck leans forward going up, the shoulders fall by some 20 degrees.
+    double n = cone(p, {0, -80, -17}, {0, -195, -58}, 43, 47);
+    n = join(n, ellipsoid(p, {0, -128, 4}, {12, 20, 13}), 18);            // larynx
+    n = join(n, cone(p, {24, -80, -48}, {58, -150, -76}, 16, 16), 34);    // trapezius, from the nape
+    n = join(n, cone(p, {54, -152, -72}, {124, -176, -66}, 16, 20), 40);  // and along the shoulder
+    double chest = ellipsoid(p, {0, -254, -58}, {132, 98, 76});
+    chest = join(chest, ellipsoid(p, {110, -206, -62}, {34, 44, 42}), 40);   // deltoid
+    chest = join(chest, cone(p, {15, -167, 2}, {68, -165, -14}, 4, 5), 16);  // clavicle, its inner half
+    chest = join(chest, cone(p, {68, -165, -14}, {116, -162, -50}, 5, 7), 18);
+    n = join(n, chest, 34);
+    n = join(n, cone(p, {47, -48, -22}, {34, -108, -14}, 6, 6), 22);  // sternocleidomastoid
+    n = join(n, cone(p, {34, -108, -14}, {13, -165, 0}, 6, 4), 24);
+    n = carve(n, ellipsoid(p, {0, -162, 17}, {9, 9, 11}), 12);    // sternal notch
+    n = carve(n, ellipsoid(p, {56, -152, -6}, {22, 6, 12}), 18);  // over the clavicle
+    return join(d, n, 18);
 }
 
 double soft_tissue(const Vec3& p, double d) {
-    d = join(d, ellipsoid(p, {31, -48, 51}, {24.5, 28, 27}), 18);  // cheek
-    d = join(d, ellipsoid(p, {0, -66, 60}, {32, 26, 32.5}), 14);   // over the dental arch
-    d = join(d,
-             join(cone(p, {0, 19, 84}, {23, 20.5, 80.5}, 7.5, 7.5), cone(p, {23, 20.5, 80.5}, {42, 17, 67}, 7.5, 7), 4),
-             18);                                                      // brow
-    d = carve(d, ellipsoid(p, {33.5, -2, 89.5}, {18, 12.5, 14}), 14);  // orbit
-    d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);      // infraorbital rim
+    d = join(d, ellipsoid(p, {29.5, -47, 51}, {21.5, 28, 27.5}), 18);  // cheek
+    d = join(d, ellipsoid(p, {0, -50, 72}, {27, 13, 19.5}), 9);        // maxilla, below the nose
+    d = join(d, ellipsoid(p, {0, -66, 60}, {32, 26, 32.5}), 14);       // over the dental arch
+    d = join(
+        d,
+        join(cone(p, {0, 18, 84.5}, {23, 18.5, 82.5}, 7.5, 7.5), cone(p, {23, 18.5, 82.5}, {44, 14, 67.5}, 7.5, 7), 4),
+        18);                                                                 // brow
+    d = carve(d, ellipsoid(p, {33.5, -2.5, 89.5}, {17.5, 11.5, 12.5}), 14);  // orbit
+    d = join(d, ellipsoid(p, {19, 9, 72}, {10, 8, 13}), 8);                  // between brow and inner canthus
+    d = join(d, cone(p, {14, -16, 76}, {44, -18, 62}, 7, 6), 10);            // infraorbital rim
     return d;
 }
 
@@ -74,38 +96,53 @@ double lids(const Vec3& p, double d) {
     const double softness = mix(5, 1.8, smooth_step(-5, 4, p.y));  // the upper lid has a crease, the lower one none
     d = join(d, glm::length(p - landmark::eye_centre) - radius, softness);
     d = join(d, glm::length(p - Vec3(17, -3, 75)) - 4, 5);  // inner canthus
-    // The crease that the upper lid folds at, some 8 mm over its edge.
-    const double crease = join(cone(p, {20.5, 3.6, 78.2}, {31, 8.4, 82.3}, 0.5, 1.1),
-                               cone(p, {31, 8.4, 82.3}, {47, 3.2, 75.6}, 1.1, 0.6), 3);
-    d = carve(d, crease, 1.8);
-    return d;
+    // The crease that the upper lid folds at runs evenly over its edge.
+    const double x = std::abs(p.x), over = p.y - canthal_y(x) - 0.95 * upper_lid_height(x) - 4.4;
+    const double ends = smooth_step(18.5, 24, x) * smooth_step(48, 42, x) * smooth_step(66, 72, p.z);
+    return d + 1.1 * bell(over, 1.0) * ends;
 }
 
 double nose(const Vec3& p, double d) {
-    double n = cone(p, {0, 6, 85}, {0, -33, 101}, 4.6, 5.4);               // bridge
-    n = join(n, cone(p, {2.5, -2, 79}, {7.5, -35, 90.5}, 6, 6.6), 9);      // its sides
-    n = join(n, ellipsoid(p, {0, -36, 102.5}, {6.6, 7.2, 8.2}), 7);        // tip
-    n = join(n, ellipsoid(p, {0, -37, 87}, {8, 9, 13}), 4);                // no void between nose and face
-    n = join(n, ellipsoid(p, {3.4, -37, 105}, {4.2, 4.8, 5.0}), 4);        // its two domes
-    n = join(n, ellipsoid(p, {11.4, -41.2, 94.2}, {5.0, 6.2, 7.8}), 4.5);  // wing
-    n = join(n, cone(p, {0, -42, 105.5}, {0, -47.5, 96}, 2.6, 3.0), 3.5);  // columella
-    d = join(d, n, 5.5);
-    d = carve(d, cone(p, {16.2, -36, 90}, {17.2, -45, 88.5}, 0.7, 1.0), 3);  // groove behind the wing
-    return d;
+    double n = cone(p, {0, 5, 85.2}, {0, -28, 99.4}, 5.6, 7.4);              // bridge
+    n = join(n, cone(p, {3, -2, 78}, {8.5, -33, 87.5}, 6.5, 8.5), 10);       // its sides
+    n = join(n, ellipsoid(p, {0, -34.0, 101.2}, {8.4, 7.2, 9.6}), 7);        // tip
+    n = join(n, ellipsoid(p, {4.0, -36.4, 103.2}, {5.0, 4.8, 5.6}), 6);      // its two domes
+    n = join(n, ellipsoid(p, {0, -37, 90}, {10, 9, 13}), 5);                 // no void between nose and face
+    n = join(n, ellipsoid(p, {11.0, -39.6, 92.6}, {5.9, 6.5, 9.2}), 6);      // wing
+    n = join(n, cone(p, {0, -38.6, 105.0}, {0, -44.6, 96.4}, 3.0, 3.6), 5);  // columella
+    d = join(d, n, 7);
+    // The groove over the wing, from its rim in front to where it meets the cheek.
+    const double groove = join(cone(p, {13.6, -33.4, 98.5}, {17.4, -34.6, 92}, 0.2, 0.7),
+                               cone(p, {17.4, -34.6, 92}, {18.6, -42, 87}, 0.7, 0.9), 2);
+    return carve(d, groove, 2.8);
 }
 
 double mouth(const Vec3& p, double d) {
-    // Vermilion of the upper lip: highest at the two peaks of the cupid's bow, 5 mm off the middle.
-    double lips = join(cone(p, {0, -66.0, 92.6}, {5.5, -65.2, 92.2}, 3.0, 3.2),
-                       cone(p, {5.5, -65.2, 92.2}, {25, -68.6, 80.2}, 3.2, 1.0), 2);
-    const double lower = join(cone(p, {0, -72.6, 91.0}, {9, -72.2, 89.4}, 4.5, 4.2),
-                              cone(p, {9, -72.2, 89.4}, {25, -69.3, 79.8}, 4.1, 0.9), 5);
-    lips = join(lips, lower, 0.9);
-    d = join(d, lips, 2.4);
-    d = carve(d, cone(p, {0, -50, 99.4}, {0, -61, 98.4}, 2.2, 2.9), 2.6);  // philtrum
-    d = carve(d, ellipsoid(p, {0, -84.5, 97}, {18, 4.6, 7.5}), 9);         // mentolabial fold
-    d = carve(d, glm::length(p - Vec3(27.5, -69, 85)) - 2.5, 5);           // corner
-    return d;
+    // A relief over the dental arch, in millimetres outward: profiles across the lips by the share of the red's height.
+    const double fade = smooth_step(62, 72, p.z);
+    if (fade == 0 || p.y > -46 || p.y < -112) return d;
+    const double x = std::abs(p.x), t = std::min(x / landmark::mouth_corner_x, 1.0);
+    const double above = p.y - lip_line_y(x);
+    const double full = std::pow(std::max(0.0, 1 - t * t), 0.8);
+    static constexpr Vec2 upper[] = {{0, -1.3}, {0.2, 1.0}, {0.5, 2.6}, {0.8, 3.3}, {1.0, 3.3}};
+    static constexpr Vec2 lower[] = {{0, -1.3}, {0.18, 1.4}, {0.42, 2.6}, {0.7, 2.0}, {1.0, 0.2}};
+    const auto at = [&](double across, double upward, double wide, double high) {
+        return bell(x - across, wide) * bell(p.y - upward, high);
+    };
+    double h = 0;
+    if (above >= 0) {
+        const double red = std::max(upper_lip_height(x), 1.5);
+        h = through(upper, above / red) * smooth_step(11, 0, above - red) * full;
+        h += 0.9 * bell(x, 4) * bell(above - 2, 2.2);  // tubercle
+    } else {
+        const double red = std::max(lower_lip_height(x), 1.5);
+        h = through(lower, -above / red) * smooth_step(4, 0, -above - red) * full;
+        h += 0.5 * bell(x - 8, 5) * bell(above + 4, 3);  // the lower lip's two lobes
+    }
+    h -= 2.6 * at(0, -83, 17, 5.2);                                    // mentolabial fold
+    h += 0.8 * at(5.2, -56, 2.3, 6.5) - 0.9 * at(0, -55.5, 2.6, 6.0);  // columns of the philtrum
+    h -= 1.6 * at(28, -67.5, 4, 5);                                    // corner
+    return d - h * fade;
 }
 
 }  // namespace
@@ -143,11 +180,35 @@ Vec3 leave_head(const Vec3& origin, const Vec3& direction) {
     return origin + direction * high;
 }
 
+namespace {
+/// An almond under the wing, its long way from the tip back and aside.
+constexpr Vec3 nostril_centre{6.9, -45.2, 96.6}, nostril_inward{0.6, 8.0, -1.5};
+constexpr double nostril_half_length = 6.3, nostril_half_width = 2.9, nostril_height = 4.5;
+
+/// 0 in the almond's middle, 1 on its rim.
+double nostril_reach(const Vec3& half) {
+    const Vec3 along = glm::normalize(Vec3(0.36, -0.22, -0.9)), up = glm::normalize(nostril_inward);
+    const Vec3 across = glm::normalize(glm::cross(along, up));
+    const Vec3 arm = half - nostril_centre;
+    return glm::length(Vec3(glm::dot(arm, along) / nostril_half_length, glm::dot(arm, across) / nostril_half_width,
+                            glm::dot(arm, up) / nostril_height));
+}
+}  // namespace
+
 Vec3 sink_nostril(const Vec3& p) {
-    constexpr Vec3 centre{6.2, -46.8, 97.6}, widths{2.9, 4.0, 4.3}, inward{1.2, 8.0, -3.0};
-    const double reach = glm::length((Vec3(std::abs(p.x), p.y, p.z) - centre) / widths);
-    const Vec3 sunk = inward * smooth_step(1.15, 0.35, reach);
+    const Vec3 sunk = nostril_inward * smooth_step(1.05, 0.6, nostril_reach({std::abs(p.x), p.y, p.z}));
     return p + Vec3(p.x < 0 ? -sunk.x : sunk.x, sunk.y, sunk.z);
+}
+
+double nostril_depth(const Vec3& p) {
+    // What was sunk by a share of the way came from where that share takes it back to.
+    const Vec3 half{std::abs(p.x), p.y, p.z};
+    double share = 0;
+    for (int n = 1; n <= 10; ++n) {
+        const double way = 0.1 * n;
+        if (smooth_step(1.05, 0.6, nostril_reach(half - nostril_inward * way)) >= way) share = way;
+    }
+    return share;
 }
 
 Vec3 project_to_head(const Vec3& start) {
@@ -179,10 +240,20 @@ double lower_lid_height(double x) {
     return 5.0 * std::pow(std::sin(pi * std::pow(t, 1.12)), 0.85);
 }
 
+double upper_lip_height(double x) {
+    const double t = std::min(std::abs(x) / landmark::mouth_corner_x, 1.0);
+    return 7.4 * std::pow(1 - t * t, 0.85) - 1.5 * bell(x, 3);
+}
+
+double lower_lip_height(double x) {
+    const double t = std::min(std::abs(x) / landmark::mouth_corner_x, 1.0);
+    return 9.0 * std::pow(1 - t * t, 0.77);
+}
+
 double lip_line_y(double x) {
     const double t = std::clamp(std::abs(x) / landmark::mouth_corner_x, 0.0, 1.0);
     // The upper lip's tubercle dips in the middle, the line rises beside it and falls a little to the corner.
-    return landmark::stomion_y - 0.9 * bell(t, 0.22) + 0.6 * std::sin(pi * t) + 0.5 * t;
+    return landmark::stomion_y - 0.9 * bell(t, 0.22) + 0.4 * std::sin(pi * t) + 1.6 * t * t;
 }
 
 }  // namespace blush::make_face

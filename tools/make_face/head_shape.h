@@ -37,6 +37,8 @@ Vec3 project_to_head(const Vec3& p);
 
 /// Sinks the surface into the nostrils: they are pits behind an edge, which no ray from inside the head could tell.
 Vec3 sink_nostril(const Vec3& p);
+/// How deep in a nostril a place of the finished skin lies: 0 outside, 1 at its ground.
+double nostril_depth(const Vec3& p);
 
 /// Height of the upper and lower lid's edge over the line between the canthi (both positive), at x on the left eye.
 double upper_lid_height(double x);
@@ -45,5 +47,8 @@ double lower_lid_height(double x);
 double canthal_y(double x);
 /// y of the line where the closed lips meet, at |x| up to the mouth's corner.
 double lip_line_y(double x);
+/// Height of the red of the upper and lower lip over and under that line (both positive).
+double upper_lip_height(double x);
+double lower_lip_height(double x);
 
 }  // namespace blush::make_face

@@ -142,7 +142,9 @@ Mesh make_gum(Jaw jaw) {
         const double margin = arch.root_y - arch.upward * (0.8 + papilla);
         const double turn = pi * k / around;
         const double reach = std::sin(turn);
-        const double outward = -arch.thickness / 2 + std::cos(turn) * (arch.thickness / 2 * 1.3 + 0.5) - 0.35;
+        // Away from the teeth the jaw's bone lies farther back, under the fold of lip and chin.
+        const double back = std::cos(turn) > 0 ? 5 * (1 - std::pow(reach, 0.4)) : 0;
+        const double outward = -arch.thickness / 2 + std::cos(turn) * (arch.thickness / 2 * 1.3 + 0.5) - 0.35 - back;
         return Vec2(outward, mix(arch.root_y + arch.upward * 9, margin, std::pow(reach, 0.4)));
     });
 }
@@ -154,8 +156,8 @@ Mesh make_tongue() {
         // s = 0 at the root, 1 at the tip; the body thins and rounds off toward the tip.
         const double z = mix(34, 77, s);
         const double round = std::sqrt(std::max(0.0, 1 - std::pow(s, 6)));
-        const double half_width = 18 * mix(0.9, 0.78, s) * round, half_height = mix(9, 3.4, s) * round;
-        const double middle = mix(-77, -73.2, std::sin(pi * 0.5 * s));
+        const double half_width = 18 * mix(0.9, 0.78, s) * round, half_height = mix(10, 4.2, s) * round;
+        const double middle = mix(-75, -73, s) + 3.5 * std::sin(pi * s);
         const double x = half_width * std::cos(turn);
         const double groove =
             1.3 * bell(x, 3.5) * smooth_step(0, 0.6, std::sin(turn)) * round * smooth_step(1, 0.75, s);

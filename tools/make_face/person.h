@@ -13,9 +13,9 @@ namespace blush::make_face {
 
 /// What colours a person. Concentrations and the blend of the two melanins are those of jimenez-2012, 7.6.
 struct SkinTone {
-    double melanin = 0.02;                            ///< fraction of the epidermis, 0 to 0.5
+    double melanin = 0.021;                           ///< fraction of the epidermis, 0 to 0.5
     double melanin_blend = 0.61;                      ///< share of eumelanin in it, 0 to 1; the rest is pheomelanin
-    double hemoglobin = 0.016;                        ///< fraction of the dermis that is blood, 0 to 0.3
+    double hemoglobin = 0.015;                        ///< fraction of the dermis that is blood, 0 to 0.3
     std::array<double, 3> hair{0.29, 0.20, 0.135};    ///< sRGB, 0 to 1
     std::array<double, 3> eyes{0.345, 0.388, 0.365};  ///< the iris, sRGB, 0 to 1
     double freckles = 0.25;                           ///< 0 none to 1 many

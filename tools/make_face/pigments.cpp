@@ -49,7 +49,7 @@ double mole_cover(const Vec3& p) {
 
 /// Melanin at a place over that of the typical skin.
 double melanin_factor(const Vec3& p, const Vec3& half, double lip, const SkinTone& look) {
-    double f = 1 + 0.10 * fractal_noise(p / 15.0 + Vec3(3, 7, 1), 3) + 0.07 * fractal_noise(p / 2.6, 2) +
+    double f = 1 + 0.14 * fractal_noise(p / 15.0 + Vec3(3, 7, 1), 3) + 0.10 * fractal_noise(p / 2.6, 2) +
                0.05 * noise(p / 0.9);
     f += 0.14 * bell(half, {0, 42, 90}, {50, 30, 34}) + 0.14 * bell(half, {0, -22, 100}, {13, 22, 20}) +
          0.10 * bell(half, {44, -24, 60}, {22, 16, 24});  // what faces the sun
@@ -72,16 +72,17 @@ double melanin_factor(const Vec3& p, const Vec3& half, double lip, const SkinTon
 
 /// Hemoglobin over that of the typical skin.
 double hemoglobin_factor(const SurfaceTexel& texel, const Vec3& p, const Vec3& half) {
-    double f = 1 + 0.16 * fractal_noise(p / 11.0, 3) + 0.15 * fractal_noise(p / 3.3 + Vec3(9, 2, 4), 2) +
+    double f = 1 + 0.20 * fractal_noise(p / 11.0, 3) + 0.20 * fractal_noise(p / 3.3 + Vec3(9, 2, 4), 2) +
                0.10 * noise(p / 0.8 + Vec3(5, 1, 8));
     const double cheek = bell(half, {40, -34, 64}, {18, 16, 24}), tip = bell(half, {0, -37, 112}, {10, 9, 11}),
                  wing = bell(half, {14, -41, 97}, {7, 8, 11});
-    f += 0.75 * cheek + 0.85 * tip + 0.80 * wing;
-    f += 0.40 * bell(half, {0, -99, 88}, {15, 10, 16}) + 0.25 * bell(half, {0, 8, 96}, {9, 8, 10});  // chin, glabella
-    f += 0.55 * around_eye(half) + 0.55 * bell(half, {16, -3, 78}, {5, 5, 8});
-    f += 0.25 * bell(half, {22, -50, 84}, {4, 9, 12});
+    f += 1.6 * cheek + 1.6 * tip + 1.5 * wing;
+    f += 0.70 * bell(half, {0, -99, 88}, {13, 9, 16}) + 0.35 * bell(half, {0, 8, 96}, {9, 8, 10});  // chin, glabella
+    f += 0.55 * around_eye(half) + 0.75 * bell(half, {16, -3, 78}, {5, 5, 8});
+    f += 0.35 * bell(half, {22, -50, 84}, {4, 9, 12});
+    f -= 0.25 * bell(half, {0, 44, 90}, {46, 20, 34});  // the forehead is yellower
     f -= 0.22 * bell(half, {0, -60, 96}, {13, 6, 12});  // the upper lip's skin is pale
-    if (texel.part == Part::ear) f += 1.1;
+    if (texel.part == Part::ear) f += 1.5;
     // Single vessels and blotches where the skin is full.
     const double full = std::max({cheek, wing, 0.7 * tip});
     if (full > 0.05) {
@@ -92,9 +93,10 @@ double hemoglobin_factor(const SurfaceTexel& texel, const Vec3& p, const Vec3& h
 }
 
 /// Light skin of the table is darker than people's (L* 62 at the 1 % melanin of Jacques' lightest; measured faces have
-/// 65 to 72), since what the surface reflects is not in it. Photographed skin comes out of it as much brighter, too
+/// 65 to 72), since what the surface reflects is not in it, and less yellow (b* 11 to 14; measured 15 to 19: Xiao et
+/// al. 2017), since it has no carotene (Alaluf et al. 2002b). Photographed skin comes out of it as much brighter, too
 /// (docs/appearance.md).
-constexpr float white = 1.22F;
+const glm::vec3 white(1.26F, 1.20F, 1.11F);
 
 struct Pigment {
     double melanin = 0, hemoglobin = 0;
@@ -102,17 +104,18 @@ struct Pigment {
     Vec3 over{0};       ///< linear sRGB of what lies over the skin
     double cover = 0;   ///< how much of the skin it hides
     double shadow = 1;  ///< factor on the colour below it: where no light reaches
+    Vec3 tint{1};       ///< and what lies deeper than the model's skin: veins
 };
 
 /// Red lips are an epidermis without its horny layer over many vessels.
-double lip_hemoglobin(const SkinTone& look) { return 0.040 + 2.2 * look.hemoglobin; }
+double lip_hemoglobin(const SkinTone& look) { return 0.055 + 2.6 * look.hemoglobin; }
 
 /// Turns skin to red lip by a share.
 void redden(Pigment& pigment, const Vec3& p, double lip, const SkinTone& look) {
     const double furrow = 0.5 + 0.5 * noise({p.x / 0.8, p.y / 6.0, 4.5});
     const double red = lip_hemoglobin(look) * (1 + 0.20 * fractal_noise(p / 3.0, 2)) * mix(0.85, 1.1, furrow);
     pigment.hemoglobin = mix(pigment.hemoglobin, red, 0.94 * lip);
-    pigment.melanin += lip * (0.006 + 0.05 * look.melanin);
+    pigment.melanin += lip * (0.002 + 0.05 * look.melanin);
     pigment.shadow *= 1 - 0.10 * lip;
 }
 /// Of closed lips, where they meet.
@@ -124,7 +127,8 @@ void line_mouth(Pigment& pigment, const Vec3& p, double depth, const SkinTone& l
     const double inside = smooth_step(0.02, 0.3, depth);
     pigment.melanin = mix(pigment.melanin, 0.012, inside);
     pigment.hemoglobin = mix(pigment.hemoglobin, 1.5 * lip_hemoglobin(look), inside);
-    pigment.shadow *= mix(seam_shadow(1), 0.035, smooth_step(0.1, 0.62, depth));
+    pigment.shadow *=
+        mix(mix(seam_shadow(1), 0.62, smooth_step(0.02, 0.12, depth)), 0.16, smooth_step(0.25, 0.95, depth));
     pigment.skin = smooth_step(0.3, 0.05, depth);
 }
 
@@ -136,6 +140,11 @@ void line_lid(Pigment& pigment, bool upper, double depth, const SkinTone& look) 
     pigment.cover = 0.8 * smooth_step(0.45, 0.1, depth);  // lashes root in it, and it shades itself
     pigment.over = linear_srgb(vec3(look.hair)) * 0.10;
     pigment.shadow *= 0.55;
+}
+
+/// Thin skin below the eye and at its inner corner, through which veins show.
+double veiled(const Vec3& half) {
+    return std::max(bell(half, {27, -13, 78}, {12, 4.5, 14}), 0.8 * bell(half, {17, -7, 78}, {4.5, 6, 8}));
 }
 
 /// Hair on the scalp and under brows and lashes.
@@ -162,15 +171,17 @@ Pigment pigment_at(const SurfaceTexel& texel, const SkinTone& look) {
         case Part::lid_lining:
             line_lid(result, p.y > canthal_y(half.x), depth, look);
             break;
+        case Part::cut:
         case Part::ear:
             result.shadow = 1 - 0.55 * bell(half, ear_centre + Vec3(0, -3, 5), {9, 5, 5});
             break;
         case Part::skin:
-            result.melanin *= 1 - 0.15 * lip_border(p);
-            result.hemoglobin *= 1 - 0.35 * lip_border(p);
-            result.melanin += mole_cover(p) * (0.07 + 0.6 * look.melanin);
+            result.melanin *= 1 - 0.08 * lip_border(p);
+            result.hemoglobin *= 1 - 0.15 * lip_border(p);
+            result.melanin += mole_cover(p) * (0.10 + 0.7 * look.melanin);
             if (lip > 0) redden(result, p, lip, look);
-            result.shadow *= seam_shadow(lip_seam(p)) * (1 - 0.93 * nostril(texel));
+            result.shadow *= seam_shadow(lip_seam(p)) * (1 - 0.70 * nostril(texel));
+            result.tint = glm::mix(Vec3(1), Vec3(0.90, 0.93, 0.99), veiled(half));
             cover_with_hair(result, p, look);
             break;
     }
@@ -204,8 +215,8 @@ AppearanceMaps paint_pigments(const SurfaceTexels& texels, const SkinTone& look,
         const glm::vec3 plain = glm::max(table.colour_linear(melanin, hemoglobin), glm::vec3(1e-4F));
         const glm::vec3 skin = other_blend ? own.colour_linear(melanin, hemoglobin) : plain;
         const auto cover = static_cast<float>(pigment.cover);
-        const glm::vec3 colour =
-            glm::mix(skin * (white * static_cast<float>(pigment.shadow)), glm::vec3(pigment.over), glm::vec3(cover));
+        const glm::vec3 colour = glm::mix(skin * white * glm::vec3(pigment.tint * pigment.shadow),
+                                          glm::vec3(pigment.over), glm::vec3(cover));
         maps.residual.values[k] = colour / plain;
     });
     texels.fill_margins(std::span(maps.melanin.values), 1);

@@ -38,7 +38,7 @@ double relief(const SurfaceTexel& texel) {
         // Pores: pits of 0.15 to 0.3 mm, a millimetre apart where they are widest.
         const double cell = 1.05;
         const double pit = smooth_step(0.42, 0.10, cell_distance(p / cell));
-        double skin = -0.125 * mix(0.22, 1.0, wide) * (1 - 0.85 * eye) * pit;
+        double skin = -0.19 * mix(0.25, 1.0, wide) * (1 - 0.85 * eye) * pit;
         // Primary lines: two families that cross, bent by a slow noise (Mac-Neil 1: skin relief is a net of rhombs).
         const double bend = 2.2 * noise(p / 5.0);
         constexpr double head_radius = 76;  // so that u is a length along the skin, also on the sides of the face
@@ -51,7 +51,7 @@ double relief(const SurfaceTexel& texel) {
         skin += 0.055 * forehead * furrow(noise({u / 16, v / 1.7 + 0.6 * noise(p / 9.0), 1.5}), 0.4, 2);
         const Vec3 from_corner = half - Vec3(44, -2, 62);
         const double fan = std::atan2(from_corner.y, from_corner.x + 8);
-        skin += 0.060 * bell(from_corner, Vec3(0), {14, 12, 16}) *
+        skin += 0.040 * bell(from_corner, Vec3(0), {14, 12, 16}) *
                 furrow(noise({fan * 9, glm::length(from_corner) / 9, 6.5}), 0.35, 2);
         skin += 0.045 * smooth_step(-105, -122, p.y) * furrow(noise({u / 22, v / 4.2 + noise(p / 15.0), 2.5}), 0.25, 2);
         // Slow unevenness: no skin is a smooth shell.
@@ -100,7 +100,9 @@ Picture paint_relief(const SurfaceTexels& texels) {
 }
 
 Picture paint_roughness(const SurfaceTexels& texels) {
-    constexpr double dry = 0.56, shining = 0.42, lips = 0.36, hair = 1, wet = 0.16;
+    // Beckmann's m is 0.6 times it. Weyrich et al. 2006 fit m of 0.2 (nose, forehead) to 0.4 (cheeks), recalled, and
+    // intensities of a fifth to a half of what a smooth surface would reflect.
+    constexpr double dry = 0.54, shining = 0.34, lips = 0.32, hair = 1, wet = 0.16;
     Picture picture(texels.side(), texels.side(), 3, 0);
     for (std::size_t k = 0; k < picture.bytes.size(); k += 3) {
         picture.bytes[k] = 255;
@@ -139,7 +141,8 @@ Picture paint_specular(const SurfaceTexels& texels) {
     Picture picture(texels.side(), texels.side(), 4, 255);
     texels.for_each([&](int x, int y, const SurfaceTexel& texel, std::size_t) {
         const Vec3 p = texel.place(), half = texel.half();
-        double intensity = mix(0.55, 0.95, oily(half)) + 0.06 * fractal_noise(p / 3.0, 2);
+        double intensity = mix(0.38, 0.85, oily(half)) * (1 - 0.5 * bell(half, {58, 2, 46}, {16, 26, 30})) +
+                           0.08 * fractal_noise(p / 3.0, 2);
         if (texel.part == Part::skin) {
             intensity = mix(intensity, 0.9, lip_cover(p));
             intensity = mix(intensity, 0.05, std::max(hair_paint(p), 0.5 * brow_cover(p)));

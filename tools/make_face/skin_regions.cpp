@@ -9,12 +9,10 @@ using namespace landmark;
 
 /// Millimetres inside the red lip's outline as seen from the front; negative outside.
 double inside_lip(const Vec3& p) {
-    const double x = std::abs(p.x), t = std::min(x / mouth_corner_x, 1.0);
-    const double closing = std::pow(std::max(0.0, 1 - t * t), 0.85);
-    const double bow = 1.5 * bell(x, 3.0);
+    const double x = std::abs(p.x);
     const double ragged = 0.22 * noise(p / 0.8) + 0.35 * noise(p / 3.1);
-    const double top = lip_line_y(x) + 6.6 * closing - bow;
-    const double bottom = lip_line_y(x) - 9.0 * std::pow(closing, 0.9);
+    const double top = lip_line_y(x) + upper_lip_height(x);
+    const double bottom = lip_line_y(x) - lower_lip_height(x);
     const double beside = mouth_corner_x + 0.3 - x;
     return std::min({top - p.y, p.y - bottom, beside}) + ragged;
 }
@@ -28,7 +26,7 @@ bool before_mouth(const Vec3& p) { return p.z > 60 && p.y < -50 && p.y > -90; }
 
 }  // namespace
 
-double lip_cover(const Vec3& p) { return before_mouth(p) ? smooth_step(-0.55, 0.65, inside_lip(p)) : 0; }
+double lip_cover(const Vec3& p) { return before_mouth(p) ? smooth_step(-1.1, 1.2, inside_lip(p)) : 0; }
 
 double lip_border(const Vec3& p) {
     return before_mouth(p) ? bell(inside_lip(p) + 1.5, 1.1) * smooth_step(mouth_corner_x + 2, 16, std::abs(p.x)) : 0;
@@ -50,10 +48,7 @@ double lid_rim(const Vec3& p, bool upper) {
 
 double around_eye(const Vec3& half) { return bell(half, eye_centre + Vec3(0, 0, 10), {20, 13, 18}); }
 
-double nostril(const SurfaceTexel& texel) {
-    return bell(texel.half(), {6.6, -45, 99.5}, {4.2, 4.0, 6.5}) *
-           smooth_step(0.35, -0.15, static_cast<double>(texel.normal.z));
-}
+double nostril(const SurfaceTexel& texel) { return smooth_step(0.05, 0.6, nostril_depth(texel.half())); }
 
 double oily(const Vec3& half) {
     return std::max({bell(half, {0, -25, 104}, {14, 26, 24}), bell(half, {0, 42, 90}, {36, 20, 26}),

@@ -6,8 +6,9 @@
 namespace blush::make_face {
 
 /// Clumps of hair stand beside each other in the texture, roots at the top; each is there twice, once as the light
-/// falls on it and once as it lies in the shadow of the hair above it.
-inline constexpr int hair_clumps = 4;
+/// falls on it and once as it lies in the shadow of the hair above it. The first ones are of few hairs, for the
+/// hairline.
+inline constexpr int hair_clumps = 8, sparse_hair_clumps = 2;
 struct ClumpArea {
     double left, right, top, bottom;  ///< texture coordinates, v down
 };

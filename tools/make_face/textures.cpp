@@ -79,8 +79,8 @@ Picture paint_teeth(int side) {
     return paint_square(side, [](double u, double v) {
         const double back = 2 * std::abs(u - 0.5);
         const double stain = 0.5 + 0.5 * noise({u * 40, v * 6, 0.5});
-        const Color ivory = blend(Color(0.80, 0.765, 0.69), Color(0.76, 0.70, 0.60), 0.6 * stain + 0.4 * back);
-        return ivory * mix(1, 0.30, smooth_step(0.18, 0.85, back));
+        const Color ivory = blend(Color(0.86, 0.83, 0.765), Color(0.82, 0.77, 0.68), 0.6 * stain + 0.4 * back);
+        return ivory * mix(1, 0.55, smooth_step(0.25, 0.9, back));
     });
 }
 
@@ -88,7 +88,7 @@ Picture paint_gum(int side) {
     return paint_square(side, [](double u, double v) {
         const double mottled = fractal_noise({u * 60, v * 12, 0.5}, 2);
         const Color pink = blend(Color(0.63, 0.33, 0.32), Color(0.52, 0.22, 0.23), 0.5 + 0.5 * mottled);
-        return blend(pink, throat, smooth_step(0.30, 0.52, v));
+        return blend(pink, throat, smooth_step(0.35, 0.85, v));
     });
 }
 
@@ -97,7 +97,7 @@ Picture paint_tongue(int side) {
         const double papillae = fractal_noise({u * 70, v * 50, 0.5}, 2);
         const Color flesh = blend(Color(0.66, 0.36, 0.35), Color(0.70, 0.44, 0.42), 0.5 + 0.5 * papillae) *
                             (1 - 0.12 * bell(u - 0.5, 0.05));
-        return blend(throat, flesh, smooth_step(0.25, 0.95, v));
+        return blend(throat, flesh, smooth_step(-0.1, 0.6, v));
     });
 }
 

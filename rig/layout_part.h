@@ -1,0 +1,21 @@
+#pragma once
+/// A part of a face's texture layout, for small maps that need not show all of it.
+
+#include <glm/glm.hpp>
+
+namespace blush {
+
+/// A rectangle of texture coordinates (v down), 0 to 1, from below to.
+struct LayoutPart {
+    glm::vec2 from{0}, to{1};
+
+    bool is_whole() const { return from == glm::vec2(0) && to == glm::vec2(1); }
+    /// Texture coordinates in a map that shows this part alone.
+    template <class Uv>
+    Uv within(Uv uv) const {
+        return (uv - Uv(from)) / Uv(to - from);
+    }
+    bool operator==(const LayoutPart&) const = default;
+};
+
+}  // namespace blush
