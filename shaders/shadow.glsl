@@ -120,8 +120,12 @@ float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l) {
             sum += wy.y * (wx.x * lit.x + wx.y * lit.y) + wy.x * (wx.y * lit.z + wx.x * lit.w);
         }
     }
+#ifdef HAIR
+    return sum / 9.0;  // what strands hide from each other is as broken up as they are: no soft edge shows
+#else
     if (light.shadow_depth.z == 0.0) return sum / 9.0;
     return soft_share(light, middle, distance_here, texel, vertex_normal, l, sum / 9.0);
+#endif
 }
 
 // How far the light came inside, world units, at most `most`; of a point that stands a little below the surface. Where
