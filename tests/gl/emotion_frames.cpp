@@ -177,9 +177,9 @@ TEST_F(EmotionFrames, WrinklesShowInTheZonesThatActAndNowhereElse) {
             }
             constexpr double noticed = 1;
             if (expected) {
-                inside += ciede2000(lab_of(folded, i), lab_of(smooth, i)) > noticed ? 1 : 0;
+                inside += ciede2000(lab_of(folded, i), lab_of(smooth, i)) > noticed ? 1U : 0U;
             } else {
-                outside += same_bits(folded, smooth, i) ? 0 : 1;
+                outside += same_bits(folded, smooth, i) ? 0U : 1U;
             }
         }
         EXPECT_GT(inside, 40U) << emotion;
@@ -210,9 +210,9 @@ TEST_F(EmotionFrames, BloodShowsOnSkinAndNowhereElse) {
         std::size_t inside = 0, outside = 0;
         for (std::size_t i = 0; i < seen.skin.size(); ++i) {
             if (seen.skin[i]) {
-                inside += ciede2000(lab_of(flushed, i), lab_of(still, i)) > 0.7 ? 1 : 0;
+                inside += ciede2000(lab_of(flushed, i), lab_of(still, i)) > 0.7 ? 1U : 0U;
             } else {
-                outside += same_bits(flushed, still, i) ? 0 : 1;
+                outside += same_bits(flushed, still, i) ? 0U : 1U;
             }
         }
         EXPECT_GT(inside, 100U) << emotion;

@@ -214,30 +214,32 @@ TEST_F(Lights, TheEdgeOfAShadowIsAsWideAsTheLight) {
     // goes behind the plate's edge little by little: the lit share is that of a
     // disc cut by a line.
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
-    constexpr float height = 0.02F, tangent = 0.1F;
+    constexpr float height = 0.02F;
     Face face;
     add_block(face, 0.06F, 0.06F);
     add_quad(face, {0, -0.03F, height}, {0.03F, -0.03F, height}, {0.03F, 0.03F, height}, {0, 0.03F, height});
-    Lighting lighting = from_direction({1, 0, 1}, glm::vec3(1));
-    lighting.lights[0].size = std::atan(tangent);
-    Character character = plain(finished(face));
-    ASSERT_TRUE(character.set("translucency.strength", "0"));
-    View view = front_view(offscreen);
-    view.lighting = &lighting;
-    const Image image = test::draw(character, offscreen, view);
-    // Across the beam the disc is tangent * distance wide; the floor sees it
-    // stretched by the slant of 45 degrees.
-    const double distance = static_cast<double>(height) * std::sqrt(2.0);
-    const double half_width_mm = 1000 * static_cast<double>(tangent) * distance * std::sqrt(2.0);
-    double before = 1;
-    for (std::uint32_t x = 4; x < side / 2 - 1; ++x) {
-        const double at_mm = -30 + (x + 0.5) * 60.0 / side, u = std::clamp((at_mm + 20) / half_width_mm, -1.0, 1.0);
-        const double lit = 0.5 - (u * std::sqrt(1 - u * u) + std::asin(u)) / 3.14159265358979;
-        const double drawn = static_cast<double>(pixel(image, x, side / 2).r) * std::sqrt(2.0);
-        // 32 taps of a disc, and blockers found by 16.
-        EXPECT_NEAR(drawn, lit, 0.12) << at_mm << " mm";
-        EXPECT_LE(drawn, before + 0.02) << "the edge comes and goes at " << at_mm;
-        before = drawn;
+    for (const float tangent : {0.04F, 0.1F}) {
+        Lighting lighting = from_direction({1, 0, 1}, glm::vec3(1));
+        lighting.lights[0].size = std::atan(tangent);
+        Character character = plain(finished(face));
+        ASSERT_TRUE(character.set("translucency.strength", "0"));
+        View view = front_view(offscreen);
+        view.lighting = &lighting;
+        const Image image = test::draw(character, offscreen, view);
+        // Across the beam the disc is tangent * distance wide; the floor sees it
+        // stretched by the slant of 45 degrees.
+        const double distance = static_cast<double>(height) * std::sqrt(2.0);
+        const double half_width_mm = 1000 * static_cast<double>(tangent) * distance * std::sqrt(2.0);
+        double before = 1;
+        for (std::uint32_t x = 4; x < side / 2 - 1; ++x) {
+            const double at_mm = -30 + (x + 0.5) * 60.0 / side, u = std::clamp((at_mm + 20) / half_width_mm, -1.0, 1.0);
+            const double lit = 0.5 - (u * std::sqrt(1 - u * u) + std::asin(u)) / 3.14159265358979;
+            const double drawn = static_cast<double>(pixel(image, x, side / 2).r) * std::sqrt(2.0);
+            // 32 taps of a disc, and blockers found by 16.
+            EXPECT_NEAR(drawn, lit, 0.12) << at_mm << " mm";
+            EXPECT_LE(drawn, before + 0.02) << "the edge comes and goes at " << at_mm;
+            before = drawn;
+        }
     }
 }
 
@@ -363,6 +365,29 @@ TEST_F(Lights, AShadowFallsWhereTheLightIsBlocked) {
         if (std::abs(at_mm + 10) < 1.0) continue;  // the filter's width, and the bias
         EXPECT_LE(std::abs(pixel(image, x, side / 2).r - (at_mm < -10 ? std::sqrt(0.5F) : 0.0F)), 2e-3F)
             << at_mm << " mm";
+    }
+}
+
+TEST_F(Lights, EveryLightHasItsOwnShadow) {
+    // The plate as above, lit from the right and from the left.
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    Face face;
+    add_block(face, 0.06F, 0.06F);
+    const float z = 0.01F;
+    add_quad(face, {0, -0.03F, z}, {0.03F, -0.03F, z}, {0.03F, 0.03F, z}, {0, 0.03F, z});
+    Lighting lighting = from_direction({1, 0, 1}, {1, 0, 0});
+    lighting.lights.push_back(from_direction({-1, 0, 1}, {0, 1, 0}).lights[0]);
+    Character character = plain(finished(face));
+    ASSERT_TRUE(character.set("translucency.strength", "0"));
+    View view = front_view(offscreen);
+    view.lighting = &lighting;
+    const Image image = test::draw(character, offscreen, view);
+    const double pixel_mm = 60.0 / side;
+    for (std::uint32_t x = 1; x < side / 2 - 1; ++x) {
+        const double at_mm = -30 + (x + 0.5) * pixel_mm;
+        if (std::abs(at_mm + 10) < 1.0) continue;  // the filter's width, and the bias
+        EXPECT_LE(std::abs(pixel(image, x, side / 2).r - (at_mm < -10 ? std::sqrt(0.5F) : 0.0F)), 2e-3F) << at_mm;
+        EXPECT_LE(std::abs(pixel(image, x, side / 2).g - std::sqrt(0.5F)), 2e-3F) << at_mm;
     }
 }
 
@@ -498,6 +523,17 @@ TEST_F(Lights, ASurfaceMirrorsWhatStandsInTheMirrorsDirectionAsSharplyAsItIsSmoo
     const float sky = mirrored(0.1F, -0.3F), ground = mirrored(0.1F, 0.3F);
     EXPECT_NEAR(static_cast<double>(sky), skin_specular_albedo(0.8, 0.08), 3e-3);
     EXPECT_LT(ground, 0.02F * sky);
+    // A wall in front, and then behind.
+    for (std::size_t y = 0; y < 16; ++y) {
+        for (std::size_t x = 0; x < 32; ++x)
+            std::fill_n(&image.floats[3 * (32 * y + x)], 3, x >= 8 && x < 24 ? 1.0F : 0.0F);
+    }
+    lighting.environment = *make_environment(image);
+    const float front = mirrored(0.1F, 0);
+    lighting.environment_turn_radians = 3.14159265F;
+    EXPECT_GT(front, 50 * mirrored(0.1F, 0));
+    lighting.environment_turn_radians = 0;
+    lighting.environment = *environment;
     const float rough_sky = mirrored(0.8F, -0.3F), rough_ground = mirrored(0.8F, 0.3F);
     EXPECT_GT(rough_ground, 0.1F * rough_sky);
 }
