@@ -152,6 +152,18 @@ TEST_F(Lights, ThroughASlabSlantedLightGoesItsWholeWay) {
     }
 }
 
+TEST_F(Lights, ThroughTheOpenBackOfAShellComesNone) {
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    Face face;
+    add_quad(face, {-0.03F, -0.03F, 0}, {0.03F, -0.03F, 0}, {0.03F, 0.03F, 0}, {-0.03F, 0.03F, 0});
+    const Lighting behind = from_direction({0, 0, -1}, glm::vec3(1));
+    Character character = plain(finished(face));
+    View view = front_view(offscreen);
+    view.lighting = &behind;
+    const Image image = test::draw(character, offscreen, view);
+    EXPECT_EQ(pixel(image, side / 2, side / 2), glm::vec3(0));
+}
+
 /// Half floats hold 0.05 %, the tables 0.5 % of a highlight.
 constexpr double reflection_tolerance = 6e-3;
 
