@@ -110,6 +110,46 @@ TEST(Person, WrongNamesAndValuesAreOneSentence) {
     EXPECT_NE(reading("{"), "");
 }
 
+/// The measures of the default head itself, taken from the implicit surface as a caliper would.
+TEST(Person, TheDefaultHeadsMeasuresLieWithinTwoDeviationsOfPeoples) {
+    constexpr double far = 130, step = 0.02;
+    const auto outside = [&](Vec3 p, const Vec3& way) {  // where the way in from afar meets the head
+        while (glm::length(p) < 2 * far && head_distance(p) > step) p += way * std::max(0.5 * head_distance(p), step);
+        return p;
+    };
+    const auto widest = [&](double low, double high, double back, double front) {
+        double x = 0;
+        for (double y = low; y <= high; y += 1)
+            for (double z = back; z <= front; z += 2) x = std::max(x, outside({far, y, z}, {-1, 0, 0}).x);
+        return 2 * x;
+    };
+    const auto front = [&](double y) { return outside({0, y, far}, {0, 0, -1}); };
+    Vec3 nasion(0, 0, far), gnathion(0);
+    for (double y = -8; y < 14; y += 0.25)
+        if (front(y).z < nasion.z) nasion = front(y);
+    for (double z = 50; z < 95; z += 1) {
+        const Vec3 p = outside({0, -far, z}, {0, 1, 0});
+        if (p.y < gnathion.y) gnathion = p;
+    }
+    const auto deviations = [](const char* name, double found) {
+        const Parameter& parameter = parameters()[*parameter_index(name)];
+        const double off = (found - (parameter.women + parameter.men) / 2) / parameter.standard_deviation;
+        std::printf("%s: %.1f mm, %+.1f deviations\n", name, found, off);
+        return std::abs(off);
+    };
+    EXPECT_LT(deviations("head_width", widest(20, 60, -40, 30)), 2);
+    EXPECT_LT(deviations("face_width", widest(-40, 0, 10, 60)), 2);
+    EXPECT_LT(deviations("nose_width", widest(-46, -34, 90, 100)), 2);
+    EXPECT_LT(deviations("face_height", nasion.y - gnathion.y), 2);
+    EXPECT_LT(deviations("mouth_width", 2 * landmark::mouth_corner_x), 2);
+    // Nasolabial angle between columella and upper lip. Uzun and Ozdemir 2014: 98.9 (10.0) and 97.9 (8.8) degrees.
+    const Vec3 subnasale = front(-51.5);
+    const Vec3 columella = glm::normalize(front(-41) - subnasale), lip = glm::normalize(front(-60) - subnasale);
+    const double angle = std::acos(glm::dot(columella, lip)) * 180 / pi;
+    std::printf("nasolabial angle: %.1f degrees\n", angle);
+    EXPECT_NEAR(angle, 98.4, 2 * 9.4);
+}
+
 TEST(Person, TheDefaultIsNoMapAtAll) { EXPECT_TRUE(PersonShape(Person()).is_identity()); }
 
 TEST(Person, AMeasureChangesByTheMillimetresThatItSays) {

@@ -11,7 +11,7 @@ using namespace landmark;
 
 // The bust ends in the level plane through chest_origin.
 constexpr Vec3 neck_origin{0, -128, -34}, chest_origin{0, -214, -58};
-constexpr double neck_share = 0.4, shoulder_share = 0.72;  // of the rows from the chin to the cut
+constexpr double neck_share = 0.36, shoulder_share = 0.62;  // of the rows from the chin to the cut
 constexpr double shoulder_elevation = radians(44), nape_elevation = radians(-22);
 constexpr double chin_elevation = radians(-49), brow_elevation = radians(28);
 

@@ -32,7 +32,8 @@ double front_height(double s, double angle) {
     // In front the rim dives into the cheek; only the helix's root and the tragus stay out.
     const double sunk = 11 * smooth_step(mix(0.25, 0.15, lobe), 0.85, a) * smooth_step(0.62, 1, s) *
                         mix(1, 0.35, smooth_step(-0.7, -0.97, b));
-    return mix(folds, s < 0.55 ? folds : plain, lobe) - sunk;
+    const double toward_neck = 4 * s * smooth_step(-0.5, -1, b);  // the lobe
+    return mix(folds, s < 0.55 ? folds : plain, lobe) - sunk - toward_neck;
 }
 
 }  // namespace

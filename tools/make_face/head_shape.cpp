@@ -65,14 +65,13 @@ double neck_and_shoulders(const Vec3& p, double d) {
     n = join(n, cone(p, {24, -80, -48}, {58, -150, -76}, 16, 16), 34);    // trapezius, from the nape
     n = join(n, cone(p, {54, -152, -72}, {124, -176, -66}, 16, 20), 40);  // and along the shoulder
     double chest = ellipsoid(p, {0, -254, -58}, {132, 98, 76});
-    chest = join(chest, ellipsoid(p, {110, -206, -62}, {34, 44, 42}), 40);   // deltoid
-    chest = join(chest, cone(p, {15, -167, 2}, {68, -165, -14}, 4, 5), 16);  // clavicle, its inner half
-    chest = join(chest, cone(p, {68, -165, -14}, {116, -162, -50}, 5, 7), 18);
+    chest = join(chest, ellipsoid(p, {110, -206, -62}, {34, 44, 42}), 40);     // deltoid
+    chest = join(chest, cone(p, {15, -168, 0}, {66, -167, -21}, 4, 4.5), 20);  // clavicle, its inner half
+    chest = join(chest, cone(p, {66, -167, -21}, {116, -164, -52}, 4.5, 7), 20);
     n = join(n, chest, 34);
     n = join(n, cone(p, {47, -48, -22}, {34, -108, -14}, 6, 6), 22);  // sternocleidomastoid
-    n = join(n, cone(p, {34, -108, -14}, {13, -165, 0}, 6, 4), 24);
-    n = carve(n, ellipsoid(p, {0, -162, 17}, {9, 9, 11}), 12);    // sternal notch
-    n = carve(n, ellipsoid(p, {56, -152, -6}, {22, 6, 12}), 18);  // over the clavicle
+    n = join(n, cone(p, {34, -108, -14}, {13, -163, -2}, 6, 3.5), 28);
+    n = carve(n, ellipsoid(p, {0, -162, 17}, {6, 7, 7}), 14);  // sternal notch
     return join(d, n, 18);
 }
 
