@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "rig/wrinkle_zones.h"
 
@@ -56,6 +58,67 @@ private:
     std::vector<float> radius_mm_;
 };
 
+/// Triangles of zones in the layout, in cells, so that a few that are the rim of something else (the inside of a lip)
+/// can be told from where skin folds.
+class Islands {
+public:
+    Islands() : cells_(std::size_t{side} * side) {}
+
+    void add(const std::array<glm::vec2, 3>& uv) {
+        const glm::vec2 middle = (uv[0] + uv[1] + uv[2]) / 3.0F * static_cast<float>(side);
+        const int x = std::min(static_cast<int>(middle.x), side - 1),
+                  y = std::min(static_cast<int>(middle.y), side - 1);
+        Box& cell = cells_[static_cast<std::size_t>(y * side + x)];
+        for (const glm::vec2& corner : uv) {
+            cell.low = glm::min(cell.low, corner);
+            cell.high = glm::max(cell.high, corner);
+        }
+        ++cell.triangles;
+        ++triangles_;
+    }
+    /// Of all islands that hold a hundredth of the triangles or more.
+    std::pair<glm::vec2, glm::vec2> bounds() {
+        Box all;
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            if (cells_[i].triangles == 0) continue;
+            const Box island = take_island(i);
+            if (100 * island.triangles < triangles_) continue;
+            all.low = glm::min(all.low, island.low);
+            all.high = glm::max(all.high, island.high);
+        }
+        return {all.low, all.high};
+    }
+
+private:
+    static constexpr int side = 64, reach = 2;  // cells; islands are farther apart than `reach`
+    struct Box {
+        glm::vec2 low{2}, high{-1};
+        std::size_t triangles = 0;
+    };
+    Box take_island(std::size_t first) {
+        Box island;
+        std::vector<std::size_t> edge = {first};
+        while (!edge.empty()) {
+            const auto at = static_cast<int>(edge.back());
+            Box cell;
+            std::swap(cell, cells_[edge.back()]);
+            edge.pop_back();
+            island.low = glm::min(island.low, cell.low);
+            island.high = glm::max(island.high, cell.high);
+            island.triangles += cell.triangles;
+            for (int y = std::max(at / side - reach, 0); y <= std::min(at / side + reach, side - 1); ++y) {
+                for (int x = std::max(at % side - reach, 0); x <= std::min(at % side + reach, side - 1); ++x) {
+                    const auto other = static_cast<std::size_t>(y * side + x);
+                    if (cells_[other].triangles > 0) edge.push_back(other);
+                }
+            }
+        }
+        return island;
+    }
+    std::vector<Box> cells_;
+    std::size_t triangles_ = 0;
+};
+
 template <class Do>
 void each_triangle(const Face& face, std::span<const std::uint32_t> primitives, Do&& run) {
     for (const std::uint32_t p : primitives) {
@@ -97,21 +160,20 @@ LayoutPart part_of_zones(const Face& face, std::span<const std::uint8_t> triangl
         return std::ranges::find(wrinkle_zone_places, zone, &WrinkleZonePlace::name) != wrinkle_zone_places.end();
     };
     if (face.uv0.empty() || !std::ranges::all_of(zones, known)) return {};
-    glm::vec2 low(2), high(-1);
+    Islands islands;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         if (triangles[t] == 0) continue;
         const std::uint32_t* const index = &face.indices[3 * t];
+        std::array<glm::vec2, 3> uv;
         bool reached = false;
-        for (int c = 0; c < 3; ++c) {
-            const glm::vec2 uv = face.uv0[index[c]];
-            if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
+        for (std::size_t c = 0; c < 3; ++c) {
+            uv[c] = face.uv0[index[c]];
+            if (!(uv[c].x >= 0 && uv[c].x <= 1 && uv[c].y >= 0 && uv[c].y <= 1)) return {};
             reached = reached || in_a_zone(zones, frame.canonical_mm(face.positions[index[c]]));
         }
-        for (int c = 0; reached && c < 3; ++c) {
-            low = glm::min(low, face.uv0[index[c]]);
-            high = glm::max(high, face.uv0[index[c]]);
-        }
+        if (reached) islands.add(uv);
     }
+    const auto [low, high] = islands.bounds();
     if (!(low.x < high.x && low.y < high.y)) return {};
     // Two texels of a mask of 64, so that masks end before the part does.
     constexpr float margin = 2.0F / 64, least_gain = 0.7F;

@@ -52,7 +52,7 @@ std::vector<float> beckmann_table(std::uint32_t side) {
     table.reserve(std::size_t{side} * side);
     for (std::uint32_t y = 0; y < side; ++y) {
         for (std::uint32_t x = 0; x < side; ++x) {
-            const double d = beckmann((x + 0.5) / side, (y + 0.5) / side);
+            const double d = x > 0 ? beckmann(x / (side - 1.0), (y + 0.5) / side) : 0;  // none lie along the surface
             table.push_back(static_cast<float>(0.5 * std::pow(d, 0.1)));
         }
     }
@@ -77,7 +77,8 @@ std::vector<float> specular_albedo_table(std::uint32_t columns, std::uint32_t ro
         const double roughness = (y + 0.5) / rows;
         const auto mean = static_cast<float>(skin_specular_albedo_mean(roughness, steps));
         for (std::uint32_t x = 0; x < columns; ++x) {
-            table.push_back(static_cast<float>(skin_specular_albedo((x + 0.5) / columns, roughness, steps)));
+            table.push_back(
+                static_cast<float>(skin_specular_albedo(std::max(x / (columns - 1.0), 1e-3), roughness, steps)));
             table.push_back(mean);
         }
     }

@@ -29,9 +29,10 @@ double skin_specular_albedo(double n_dot_l, double roughness, std::uint32_t step
 /// Mean of skin_specular_albedo over directions, weighted with their cosine: 2 * integral of albedo(c) c dc.
 double skin_specular_albedo_mean(double roughness, std::uint32_t steps = 128);
 
-/// The tables that the shader reads, rows of one roughness (y + 0.5) / rows, column x at the cosine (x + 0.5) /
-/// columns. Beckmann: 0.5 * (distribution)^0.1 (listing 2.4: a range that interpolates well). Albedo: two values an
-/// entry, the directional albedo and its mean.
+/// The tables that the shader reads: row y is of the roughness (y + 0.5) / rows, column x of the cosine x / (columns -
+/// 1), so that a mirror's direction, where a highlight is at its brightest, is a column and not beyond the last one.
+/// Beckmann: 0.5 * (distribution)^0.1 (listing 2.4: a range that interpolates well). Albedo: two values an entry, the
+/// directional albedo and its mean.
 std::vector<float> beckmann_table(std::uint32_t side);
 std::vector<float> specular_albedo_table(std::uint32_t columns, std::uint32_t rows, std::uint32_t steps = 20);
 

@@ -77,7 +77,7 @@ NormalMap base_normals(const CharacterState& state) {
     NormalMap base;
     for (std::size_t m = 0; m < state.face.materials.size(); ++m) {
         const Material& material = state.face.materials[m];
-        if (!state.skin_material[m] || material.normal.image < 0) continue;
+        if (!state.skin.material[m] || material.normal.image < 0) continue;
         const Image& image = state.face.images[static_cast<std::size_t>(material.normal.image)];
         if (image.channels < 3) continue;
         base = normals_of(image);

@@ -11,7 +11,6 @@
 #include "runtime/occlusion_file.h"
 #include "runtime/occlusion_gpu.h"
 #include "runtime/rig_description_file.h"
-#include "runtime/skin_facts.h"
 
 namespace blush {
 namespace {
@@ -91,7 +90,8 @@ Result<Character> Character::create(const Device& device, Face face, const std::
     state->head_and_eyes = find_head_and_eyes(state->face);
     state->bounds = moving_bounds(state->face);
     state->scale = face_scale(state->face);
-    find_skin_parts(*state);
+    state->skin = find_skin(state->face);
+    state->material_kind = material_kinds(state->face);
     state->eye_sockets = find_eye_sockets(state->face, state->material_kind);
     state->target_needs_turned_normals = targets_that_move(
         state->face, [](const Primitive& primitive) { return primitive.normal_source == NormalSource::recomputed; });

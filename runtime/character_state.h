@@ -27,6 +27,7 @@
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/gl/texture_pool.h"
 #include "runtime/gl/timers.h"
+#include "runtime/skin_surface.h"
 #include "runtime/stream_out.h"
 #include "runtime/view.h"
 
@@ -40,23 +41,11 @@ struct SceneFacts {
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
     bool has_triangles = false;
-    bool on_screen = false;           ///< some part of the face may be on the screen; false only where none can be
-    bool has_skin = false;            ///< the face has a material that is skin
-    bool skin_on_screen = false;      ///< it may be seen; false only where it cannot be
-    double skin_pixels_a_mm = 0;      ///< on the screen, at the nearest place where skin may be
-    bool surface_moved = false;       ///< since the shadow maps were drawn
-    std::uint32_t lights = 0;         ///< that are not dark
-    std::uint32_t shadow_lights = 0;  ///< of those, how many may cast shadows
+    bool on_screen = false;  ///< some part of the face may be on the screen; false only where none can be
     bool forced = false;
     // Of temporal antialiasing; false in other modes.
     bool has_last_frame = false;  ///< the last frame can be compared with this one
     bool moves = false;           ///< ... and some point may stand elsewhere on the screen than in it
-};
-
-/// A primitive that is skin, as a node draws it.
-struct SkinPart {
-    std::size_t node = 0;
-    Bounds bounds;  ///< in its mesh, at rest
 };
 
 /// Resources of the frame that passes hand on to one another.
@@ -107,13 +96,11 @@ struct CharacterState {
     std::vector<std::uint8_t> target_moves_normals;         // of each target, for any primitive that it moves
 
     // The pose that the deformed buffers hold.
-    std::vector<bool> skin_material;          // of each material and, last, the default one
-    std::vector<MaterialKind> material_kind;  // the same
-    std::vector<SkinPart> skin_parts;         // by node
-    EyeSockets eye_sockets;                   // none where it has no eyeballs
-    std::vector<float> target_reach;          // of each target: its longest move of skin at weight 1, mesh units
-    FaceScale scale;                          // as the face itself tells
-    double millimetres_a_unit = 1;            // that, or as the settings want it
+    std::vector<MaterialKind> material_kind;  // of each material and, last, the default one
+    SkinSurface skin;
+    EyeSockets eye_sockets;         // none where it has no eyeballs
+    FaceScale scale;                // as the face itself tells
+    double millimetres_a_unit = 1;  // that, or as the settings want it
     std::vector<ActiveTarget> active, deformed_active;
     NormalMethod normal_method = NormalMethod::authored;
     EffectSettings deformed_settings;

@@ -9,7 +9,6 @@
 #include "runtime/on_screen.h"
 #include "runtime/scene_lights.h"
 #include "runtime/shadow_maps.h"
-#include "runtime/skin_facts.h"
 
 namespace blush {
 namespace {
@@ -37,15 +36,13 @@ void find_facts(CharacterState& state, const View& view) {
 }
 
 /// Lights, skin and shadows; needs where every node stands.
-void find_light_facts(CharacterState& state, const View& view) {
+void place_lights_and_skin(CharacterState& state, const View& view) {
     if (view.lighting == nullptr) state.portrait = portrait_lighting(view.camera);
     state.lighting = view.lighting != nullptr ? view.lighting : &state.portrait;
     usable_lights(*state.lighting, view.time_seconds, state.lights);
-    state.facts.lights = static_cast<std::uint32_t>(state.lights.size());
-    find_skin_facts(state);
+    place_skin(state);
     place_shadow_maps(state);
-    state.facts.surface_moved = !shadow_maps_current(state);
-    state.shadows_shown = state.settings.choice(shadows_effect.name, "method") == 0 && state.facts.shadow_lights > 0;
+    state.shadows_shown = state.settings.choice(shadows_effect.name, "method") == 0 && shadow_light_count(state) > 0;
 }
 
 /// Effects that run must leave the same picture as effects that were left out; what they leave is remembered here.
@@ -134,7 +131,7 @@ void begin_frame(CharacterState& state, const View& view) {
     find_facts(state, view);
     world_from_nodes(state.face, state.pose, state.head_and_eyes, state.world_from_node);
     skinned_from_meshes(state.face, state.world_from_node, state.skinned_from_mesh);
-    find_light_facts(state, view);
+    place_lights_and_skin(state, view);
     state.report.active = state.active;
     state.report.deltas_added = 0;
     state.report.triangles_drawn = 0;

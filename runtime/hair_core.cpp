@@ -3,8 +3,6 @@
 #include <array>
 #include <cassert>
 
-#include "runtime/effect.h"
-
 namespace blush {
 namespace {
 
@@ -18,8 +16,7 @@ bool is_hair_card(const CharacterState& state, const Primitive& primitive) {
     if (primitive.material < 0) return false;
     const auto material = static_cast<std::size_t>(primitive.material);
     return state.material_kind[material] == MaterialKind::hair &&
-           state.face.materials[material].alpha_mode != AlphaMode::opaque &&
-           state.settings.choice(parts_effect.name, "hair") == 0;
+           state.face.materials[material].alpha_mode != AlphaMode::opaque;
 }
 
 void bind_hair_core(CharacterState& state, const Primitive& primitive, SeenFrom from) {

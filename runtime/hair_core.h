@@ -5,7 +5,7 @@
 
 namespace blush {
 
-/// Cards of hair that blend or are cut out, as far as the settings have hair shaded as such.
+/// Cards of hair, brows and lashes: materials named so that blend or are cut out.
 bool is_hair_card(const CharacterState& state, const Primitive& primitive);
 
 enum class SeenFrom : std::uint8_t { camera, light };

@@ -24,7 +24,11 @@ void place_shadow_maps(CharacterState& state) {
         if (sharp) light.shadow_depth.z = 0;
         state.shader_lights.push_back(light);
     }
-    state.facts.shadow_lights = maps;
+}
+
+std::uint32_t shadow_light_count(const CharacterState& state) {
+    return static_cast<std::uint32_t>(
+        std::ranges::count_if(state.shader_lights, [](const shared::Light& light) { return light.shadow.x >= 0; }));
 }
 
 bool shadow_maps_current(const CharacterState& state) {

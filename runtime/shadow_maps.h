@@ -25,6 +25,9 @@ std::uint32_t shadow_map_side(const CharacterState& state);
 /// Finds which lights get a map and where it looks; before the needs are found.
 void place_shadow_maps(CharacterState& state);
 
+/// Lights of this frame that have a map. Known once they are placed.
+std::uint32_t shadow_light_count(const CharacterState& state);
+
 /// Whether the maps that stand are what would be drawn now.
 bool shadow_maps_current(const CharacterState& state);
 

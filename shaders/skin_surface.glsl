@@ -7,9 +7,12 @@ layout(binding = BLUSH_SPECULAR_ALBEDO_UNIT) uniform sampler2D specular_albedo_m
 // Reflectance at normal incidence of an index of refraction of 1.4 (d'Eon and Luebke 2007). rig/skin_reflectance.h.
 const float skin_f0 = 0.028;
 
+// Column of a cosine in a table whose first and last columns are 0 and 1.
+float table_column(float cosine, float columns) { return (clamp(cosine, 0.0, 1.0) * (columns - 1.0) + 0.5) / columns; }
+
 // x: share of the light from a direction (or towards a view) that the surface reflects; y: its mean over directions.
 vec2 specular_albedo(float n_l, float roughness) {
-    return texture(specular_albedo_map, vec2(clamp(n_l, 0.0, 1.0), roughness)).rg;
+    return texture(specular_albedo_map, vec2(table_column(n_l, float(BLUSH_SPECULAR_ALBEDO_COLUMNS)), roughness)).rg;
 }
 
 // Of unit vectors n and view, and h = l + view as it is.
@@ -17,7 +20,8 @@ float skin_specular(vec3 n, vec3 h, vec3 view, float roughness) {
     float h2 = dot(h, h);
     if (h2 < 1e-8) return 0.0;  // light from straight behind the surface's edge
     vec3 unit_h = h * inversesqrt(h2);
-    float stored = 2.0 * texture(beckmann_map, vec2(clamp(dot(n, unit_h), 0.0, 1.0), roughness)).r;
+    float column = table_column(dot(n, unit_h), float(BLUSH_BECKMANN_TABLE_SIDE));
+    float stored = 2.0 * texture(beckmann_map, vec2(column, roughness)).r;
     float distribution = pow(stored, 10.0);
     float fresnel = skin_f0 + (1.0 - skin_f0) * pow(1.0 - clamp(dot(view, unit_h), 0.0, 1.0), 5.0);
     return distribution * fresnel / (3.14159265358979 * h2);
@@ -31,8 +35,10 @@ vec3 transmitted(Light light, InMap map, vec3 l, vec3 vertex_normal) {
     if (back == 0.0 || light.shadow.x < 0.0) return vec3(0.0);
     float thickness_mm =
         depth_inside(light, map.here - map.along_normal * (translucency.y / skin.x), translucency.z / skin.x) * skin.x;
-    // The paper leaves the thickness short by what the point was drawn in towards the light; a slab has it all.
-    thickness_mm += translucency.y * max(-dot(vertex_normal, l), 0.0);
+    // The paper leaves the thickness short by what the point was drawn in; a slab has it all, up to 70 degrees from its
+    // normal. Where light grazes more, a surface is no slab's, and its own depth is the better guess.
+    float facing_away = max(-dot(vertex_normal, l), 0.0), bounded = max(facing_away, 0.35);
+    thickness_mm += translucency.y * facing_away / (bounded * bounded);
     if (!(thickness_mm < translucency.z)) return vec3(0.0);
     vec3 passed = vec3(0.0);  // T(s), eq. 5.12
     for (int k = 0; k < BLUSH_MOST_GAUSSIANS; ++k) {

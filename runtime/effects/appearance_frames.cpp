@@ -244,9 +244,9 @@ std::vector<Study> wrinkle_frame_study(const Device& device, const Face& face, d
     plain->draw();
     CharacterState& state = plain->character.state();
     const std::vector<float> weights = zone_weights_of(state);
-    const Face start = study_face(face, state.skin_material);
+    const Face start = study_face(face, state.skin.material);
     const std::optional<Face> twin =
-        face_with_wrinkles(start, state.skin_material, *setup.appearance.wrinkles, weights);
+        face_with_wrinkles(start, state.skin.material, *setup.appearance.wrinkles, weights);
     if (!twin) return {};
     const std::shared_ptr<Drawn> reference = make_drawn(setup, *twin, "wrinkles.shown", "no");
     if (!reference) return {};
@@ -267,9 +267,9 @@ std::vector<Study> blood_frame_study(const Device& device, const Face& face, dou
     if (!plain) return {};
     plain->draw();
     const CharacterState& state = plain->character.state();
-    const Face start = study_face(face, state.skin_material);
+    const Face start = study_face(face, state.skin.material);
     const std::optional<Face> twin =
-        face_with_blood(start, state.skin_material, *setup.appearance.pigments, state.rig.hemoglobin_maps(),
+        face_with_blood(start, state.skin.material, *setup.appearance.pigments, state.rig.hemoglobin_maps(),
                         state.pose.hemoglobin, state.pose.hemoglobin_factor);
     if (!twin) return {};
     const std::shared_ptr<Drawn> reference = make_drawn(setup, *twin, "blood.shown", "no");

@@ -10,7 +10,7 @@ namespace blush {
 /// Why a baker has nothing to do in this frame. reasons: where the face has its maps, and where it has none.
 inline Need baker_need(const CharacterState& state, bool baked, std::string_view done, std::string_view not_done) {
     std::string_view reason = baked ? done : not_done;
-    if (!state.facts.has_skin) reason = "there is nothing to bake: the face has no skin";
+    if (state.skin.parts.empty()) reason = "there is nothing to bake: the face has no skin";
     return {.on = false, .reason = reason, .can_be_forced = false};
 }
 

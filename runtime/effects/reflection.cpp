@@ -33,11 +33,11 @@ constexpr std::array<Setting, 3> settings = {{
 }};
 
 Need need(const CharacterState& state) {
-    if (!state.facts.has_skin) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
+    if (state.skin.parts.empty()) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
     if (state.settings.choice("reflection", "model") == 1) {
         return {.on = false, .reason = "reflection.model is ggx", .can_be_forced = false};
     }
-    if (!state.facts.skin_on_screen) return {.on = false, .reason = "no skin is on the screen"};
+    if (!state.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
     return {.on = true, .reason = "skin is on the screen"};
 }
 

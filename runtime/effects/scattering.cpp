@@ -85,16 +85,16 @@ double scatter_range_mm(const CharacterState& state) {
 }
 
 Need need(const CharacterState& state) {
-    if (!state.facts.has_skin) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
+    if (state.skin.parts.empty()) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
     if (method_of(state) == ScatterMethod::off) {
         return {.on = false, .reason = "scattering.method is off", .can_be_forced = false};
     }
-    if (!state.facts.skin_on_screen) return {.on = false, .reason = "no skin is on the screen"};
-    if (state.facts.lights == 0 && state.lighting->environment == nullptr &&
+    if (!state.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
+    if (state.lights.empty() && state.lighting->environment == nullptr &&
         state.lighting->sky_radiance_linear == glm::vec3(0) && state.lighting->ground_radiance_linear == glm::vec3(0)) {
         return {.on = false, .reason = "no light falls on the skin"};
     }
-    if (scatter_range_mm(state) * state.facts.skin_pixels_a_mm < 0.5) {
+    if (scatter_range_mm(state) * state.skin.pixels_a_mm < 0.5) {
         // Every tap lies within the pixel. The bound: 0.1 of radiance, where a hard edge of light passes through it.
         return {.on = false,
                 .reason = "the kernel ends within half a pixel of its centre",

@@ -129,10 +129,10 @@ void clear(const Scene& scene) { glClearTexImage(scene.scene.name(), 0, GL_RGBA,
 std::vector<Study> scattering_studies(const Device& device, const Face& face, double millimetres_a_unit,
                                       bool /*quick*/) {
     std::shared_ptr<Scene> scene = make_scene(device, face, millimetres_a_unit);
-    if (!scene || scene->character.state().skin_parts.empty()) return {};
+    if (!scene || scene->character.state().skin.parts.empty()) return {};
     std::size_t skin = 0;
     for (const glm::dvec4& light : scene->image.light) skin += light.a > 0 ? 1U : 0U;
-    const double pixels_a_mm = scene->character.state().facts.skin_pixels_a_mm;
+    const double pixels_a_mm = scene->character.state().skin.pixels_a_mm;
     Study study{"a close view of " + std::to_string(side_pixels) + "x" + std::to_string(side_pixels) + " pixels, " +
                     std::to_string(skin) + " of them skin, up to " + std::to_string(pixels_a_mm).substr(0, 4) +
                     " pixels a millimetre",

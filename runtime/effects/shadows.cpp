@@ -26,18 +26,18 @@ Need need(const CharacterState& state) {
     if (state.settings.choice("shadows", "method") == 1) {
         return {.on = false, .reason = "shadows.method is off", .can_be_forced = false};
     }
-    if (state.facts.lights == 0) return {.on = false, .reason = "no light shines", .can_be_forced = false};
-    if (state.facts.shadow_lights == 0) {
+    if (state.lights.empty()) return {.on = false, .reason = "no light shines", .can_be_forced = false};
+    if (shadow_light_count(state) == 0) {
         return {.on = false, .reason = "no light that shines casts shadows", .can_be_forced = false};
     }
-    if (!state.facts.surface_moved) {
+    if (shadow_maps_current(state)) {
         return {.on = false, .reason = "neither lights nor surface moved since the maps that stand were drawn"};
     }
     return {.on = true, .reason = "a light casts shadows, and lights or surface moved"};
 }
 
 void ensure_maps(CharacterState& state, ShadowMaps& maps) {
-    const std::uint32_t side = shadow_map_side(state), count = state.facts.shadow_lights;
+    const std::uint32_t side = shadow_map_side(state), count = shadow_light_count(state);
     if (!maps.program) {
         Result<gl::Program> program = gl::make_program({"shadow.vert"});
         assert(program && "shadow.vert does not compile");

@@ -5,6 +5,7 @@
 #include "runtime/character_state.h"
 #include "runtime/effect.h"
 #include "runtime/effects/frame_study.h"
+#include "runtime/shadow_maps.h"
 
 namespace blush {
 namespace {
@@ -20,14 +21,14 @@ constexpr std::array<Setting, 3> settings = {{
 }};
 
 Need need(const CharacterState& state) {
-    if (!state.facts.has_skin) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
+    if (state.skin.parts.empty()) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
     if (state.settings.number("translucency", "strength") == 0) {
         return {.on = false, .reason = "translucency.strength is 0", .can_be_forced = false};
     }
-    if (state.settings.choice("shadows", "method") == 1 || state.facts.shadow_lights == 0) {
+    if (state.settings.choice("shadows", "method") == 1 || shadow_light_count(state) == 0) {
         return {.on = false, .reason = "no light has a shadow map to tell a thickness from", .can_be_forced = false};
     }
-    if (!state.facts.skin_on_screen) return {.on = false, .reason = "no skin is on the screen"};
+    if (!state.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
     return {.on = true, .reason = "a light with a shadow map may stand behind thin skin"};
 }
 

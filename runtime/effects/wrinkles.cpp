@@ -48,7 +48,7 @@ Need need(const CharacterState& state) {
         return {.on = false, .reason = "wrinkles.shown says no", .can_be_forced = false};
     }
     if (!any_wrinkle(state)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
-    if (state.facts.skin_pixels_a_mm < state.settings.number("wrinkles", "least_pixels_a_mm")) {
+    if (state.skin.pixels_a_mm < state.settings.number("wrinkles", "least_pixels_a_mm")) {
         return {.on = false,
                 .reason = "the face is so small on the screen that a fold is narrower than a pixel",
                 .omission = Omission::bounded,

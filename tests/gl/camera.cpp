@@ -1,5 +1,6 @@
 // The camera's effects on the GPU: their twins, their laws, and pictures with holes in them.
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "rig/depth_of_field.h"
 #include "rig/exposure.h"
 #include "rig/film_grain.h"
+#include "runtime/character_state.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -105,6 +107,12 @@ TEST_F(CameraEffects, ExposureBringsAConstantImageToTheKey) {
                 << radiance;
         }
     }
+    // No further from the view's own exposure than the range has it.
+    ASSERT_TRUE(character.set("exposure.range_stops", "2"));
+    View view = test::framed_view(character, offscreen);
+    view.cut = true;
+    view.background_linear = glm::vec4(glm::vec3(0.01F), 1);
+    EXPECT_NEAR(test::draw(character, offscreen, view).bytes[0], display_byte(0.04), 1);
 }
 
 TEST_F(CameraEffects, ExposureIsItsTwinAndAdaptsByTheTimeThatHasPassed) {
@@ -147,6 +155,32 @@ TEST_F(CameraEffects, ExposureIsItsTwinAndAdaptsByTheTimeThatHasPassed) {
     expect_exposed(test::draw(character, display, view), dark_picture, 0.5 * (bright_log2 + dark_log2));
     view.cut = true;
     expect_exposed(test::draw(character, display, view), dark_picture, dark_log2);
+}
+
+TEST_F(CameraEffects, WhatIsNoNumberIsNotMetered) {
+    Character character = make_character(test::make_face({.targets = 0}));
+    ASSERT_TRUE(character.set("exposure.mode", "automatic"));
+    ASSERT_TRUE(character.set("scattering.method", "off"));
+    const Offscreen display = make_offscreen(32, 32), linear = make_offscreen(32, 32, Output::linear_hdr);
+    const auto view_of = [&](const Offscreen& of) {
+        View view = test::framed_view(character, of);
+        view.check_finite = false;
+        view.samples = 1;
+        view.cut = true;
+        view.background_linear = glm::vec4(glm::vec3(NAN), 1);
+        return view;
+    };
+    const Picture radiance = radiance_of(test::draw(character, linear, view_of(linear)));
+    std::size_t broken = 0;
+    for (const glm::dvec3& c : radiance.values) broken += std::isfinite(c.x) ? 0U : 1U;
+    ASSERT_GT(broken, 100U);
+    ASSERT_LT(broken, 900U);
+    test::draw(character, display, view_of(display));
+    const CharacterState& state = character.state();
+    float found = 0;
+    glGetTextureImage(state.graph[state.resources.log2_exposure].handle, 0, GL_RED, GL_FLOAT, sizeof(found), &found);
+    EXPECT_NEAR(static_cast<double>(found),
+                log2_exposure(log2_average_luminance(radiance, Metering::frame), 0.18, 0, 6), 1e-4);
 }
 
 TEST_F(CameraEffects, WhatIsNoNumberStaysWhereItIs) {
@@ -220,7 +254,9 @@ TEST_F(CameraEffects, GrainIsItsTwinAndTheSameForTheSameFrame) {
 // Two planes before a camera at the origin: a checkerboard at 1000 mm, and a strip of it at 600 mm.
 
 constexpr std::uint32_t side = 96;
-constexpr float strip_half = 0.02F, field_radians = 0.4F;
+// The strip's edges cut through pixels, between their samples, and its right one ends a tile: what it spreads over
+// belongs to the next.
+constexpr float strip_half = 0.02888F, field_radians = 0.4F;
 
 void add_square(Face& face, glm::vec2 low, glm::vec2 high, float z, std::int32_t material) {
     const auto first = static_cast<std::uint32_t>(face.positions.size());

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "rig/diffusion_profile.h"
+#include "rig/skin_reflectance.h"
 #include "runtime/character_state.h"
 #include "tests/gl_fixture.h"
 
@@ -122,6 +123,74 @@ TEST_F(Lights, ASlabAndAWedgeLetThroughWhatTheProfileSays) {
     }
 }
 
+TEST_F(Lights, ThroughASlabSlantedLightGoesItsWholeWay) {
+    // Wider than what is seen, so that no light comes in by its sides.
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    constexpr double slab_mm = 2.5;
+    Face face;
+    add_block(face, static_cast<float>(slab_mm / 1000), static_cast<float>(slab_mm / 1000));
+    for (const float degrees : {0.0F, 30.0F, 60.0F}) {
+        for (const double strength : {1.0, 0.5}) {
+            for (const double drawn_in_mm : {0.5, 1.0}) {
+                const float angle = degrees / 57.29578F;
+                const Lighting behind = from_direction({std::sin(angle), 0, -std::cos(angle)}, glm::vec3(1));
+                Character character = plain(finished(face));
+                ASSERT_TRUE(character.set("translucency.strength", std::to_string(strength)));
+                ASSERT_TRUE(character.set("translucency.drawn_in_mm", std::to_string(drawn_in_mm)));
+                View view = front_view(offscreen);
+                view.lighting = &behind;
+                const glm::vec3 drawn = pixel(test::draw(character, offscreen, view), side / 2, side / 2);
+                const double cosine = std::cos(static_cast<double>(angle));
+                const glm::dvec3 through = transmittance(skin_six_gaussians(), slab_mm / cosine);
+                for (glm::length_t c = 0; c < 3; ++c) {
+                    EXPECT_NEAR(static_cast<double>(drawn[c]), strength * (0.3 + cosine) * through[c],
+                                1.3 * transmittance_tolerance)
+                        << degrees << " degrees, channel " << c;
+                }
+            }
+        }
+    }
+}
+
+/// Half floats hold 0.05 %, the tables 0.5 % of a highlight.
+constexpr double reflection_tolerance = 6e-3;
+
+TEST_F(Lights, TheSurfaceReflectsAndLetsInWhatItsTwinSays) {
+    // A white block's front, looked at aslant, by lights from several sides.
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    Face face;
+    add_block(face, 0.06F, 0.06F);
+    const glm::dvec3 eye(0.3, 0, 0.4);
+    for (const double roughness : {0.2, 0.45}) {
+        for (const double intensity : {0.4, 1.0}) {
+            for (const glm::vec3 towards : {glm::vec3(0, 0, 1), glm::vec3(-0.6F, 0, 0.8F), glm::vec3(-0.5F, 0.1F, 0.5F),
+                                            glm::vec3(0.7F, 0.3F, 0.4F), glm::vec3(-0.95F, 0, 0.3F)}) {
+                const Lighting lighting = from_direction(towards, glm::vec3(1));
+                Character character = plain(finished(face));
+                ASSERT_TRUE(character.set("shadows.method", "off"));
+                ASSERT_TRUE(character.set("reflection.intensity", std::to_string(intensity)));
+                ASSERT_TRUE(character.set("reflection.roughness", std::to_string(0.5 * roughness)));
+                View view = front_view(offscreen);
+                view.camera.view_from_world = glm::lookAt(glm::vec3(eye), glm::vec3(0), glm::vec3(0, 1, 0));
+                view.lighting = &lighting;
+                const Image image = test::draw(character, offscreen, view);
+                // The middle of the picture lies between four pixels; what they see there is nearly straight.
+                const auto drawn = static_cast<double>(
+                    0.25F * (pixel(image, side / 2, side / 2).r + pixel(image, side / 2 - 1, side / 2).r +
+                             pixel(image, side / 2, side / 2 - 1).r + pixel(image, side / 2 - 1, side / 2 - 1).r));
+                const glm::dvec3 v = glm::normalize(eye), l = glm::normalize(glm::dvec3(towards)), h = l + v;
+                const double h2 = glm::dot(h, h), n_h = h.z / std::sqrt(h2), v_h = glm::dot(v, h) / std::sqrt(h2);
+                const double surface = 3.14159265358979 * intensity * skin_specular(n_h, v_h, h2, roughness) * l.z;
+                const double in = 1 - intensity * skin_specular_albedo(l.z, roughness);
+                const double out = (1 - intensity * skin_specular_albedo(v.z, roughness)) /
+                                   (1 - intensity * skin_specular_albedo_mean(roughness));
+                EXPECT_NEAR(drawn, surface + l.z * in * out, reflection_tolerance * std::max(1.0, surface))
+                    << roughness << " " << intensity << " " << l.x << " " << l.y << " " << l.z;
+            }
+        }
+    }
+}
+
 TEST_F(Lights, ASlabOfMarbleLetsThroughWhatMarbleDoes) {
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
     const Lighting behind = from_direction({0, 0, -1}, glm::vec3(1));
@@ -145,30 +214,32 @@ TEST_F(Lights, TheEdgeOfAShadowIsAsWideAsTheLight) {
     // goes behind the plate's edge little by little: the lit share is that of a
     // disc cut by a line.
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
-    constexpr float height = 0.02F, tangent = 0.1F;
+    constexpr float height = 0.02F;
     Face face;
     add_block(face, 0.06F, 0.06F);
     add_quad(face, {0, -0.03F, height}, {0.03F, -0.03F, height}, {0.03F, 0.03F, height}, {0, 0.03F, height});
-    Lighting lighting = from_direction({1, 0, 1}, glm::vec3(1));
-    lighting.lights[0].size = std::atan(tangent);
-    Character character = plain(finished(face));
-    ASSERT_TRUE(character.set("translucency.strength", "0"));
-    View view = front_view(offscreen);
-    view.lighting = &lighting;
-    const Image image = test::draw(character, offscreen, view);
-    // Across the beam the disc is tangent * distance wide; the floor sees it
-    // stretched by the slant of 45 degrees.
-    const double distance = static_cast<double>(height) * std::sqrt(2.0);
-    const double half_width_mm = 1000 * static_cast<double>(tangent) * distance * std::sqrt(2.0);
-    double before = 1;
-    for (std::uint32_t x = 4; x < side / 2 - 1; ++x) {
-        const double at_mm = -30 + (x + 0.5) * 60.0 / side, u = std::clamp((at_mm + 20) / half_width_mm, -1.0, 1.0);
-        const double lit = 0.5 - (u * std::sqrt(1 - u * u) + std::asin(u)) / 3.14159265358979;
-        const double drawn = static_cast<double>(pixel(image, x, side / 2).r) * std::sqrt(2.0);
-        // 32 taps of a disc, and blockers found by 16.
-        EXPECT_NEAR(drawn, lit, 0.12) << at_mm << " mm";
-        EXPECT_LE(drawn, before + 0.02) << "the edge comes and goes at " << at_mm;
-        before = drawn;
+    for (const float tangent : {0.04F, 0.1F}) {
+        Lighting lighting = from_direction({1, 0, 1}, glm::vec3(1));
+        lighting.lights[0].size = std::atan(tangent);
+        Character character = plain(finished(face));
+        ASSERT_TRUE(character.set("translucency.strength", "0"));
+        View view = front_view(offscreen);
+        view.lighting = &lighting;
+        const Image image = test::draw(character, offscreen, view);
+        // Across the beam the disc is tangent * distance wide; the floor sees it
+        // stretched by the slant of 45 degrees.
+        const double distance = static_cast<double>(height) * std::sqrt(2.0);
+        const double half_width_mm = 1000 * static_cast<double>(tangent) * distance * std::sqrt(2.0);
+        double before = 1;
+        for (std::uint32_t x = 4; x < side / 2 - 1; ++x) {
+            const double at_mm = -30 + (x + 0.5) * 60.0 / side, u = std::clamp((at_mm + 20) / half_width_mm, -1.0, 1.0);
+            const double lit = 0.5 - (u * std::sqrt(1 - u * u) + std::asin(u)) / 3.14159265358979;
+            const double drawn = static_cast<double>(pixel(image, x, side / 2).r) * std::sqrt(2.0);
+            // 32 taps of a disc, and blockers found by 16.
+            EXPECT_NEAR(drawn, lit, 0.12) << at_mm << " mm";
+            EXPECT_LE(drawn, before + 0.02) << "the edge comes and goes at " << at_mm;
+            before = drawn;
+        }
     }
 }
 
@@ -297,6 +368,29 @@ TEST_F(Lights, AShadowFallsWhereTheLightIsBlocked) {
     }
 }
 
+TEST_F(Lights, EveryLightHasItsOwnShadow) {
+    // The plate as above, lit from the right and from the left.
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    Face face;
+    add_block(face, 0.06F, 0.06F);
+    const float z = 0.01F;
+    add_quad(face, {0, -0.03F, z}, {0.03F, -0.03F, z}, {0.03F, 0.03F, z}, {0, 0.03F, z});
+    Lighting lighting = from_direction({1, 0, 1}, {1, 0, 0});
+    lighting.lights.push_back(from_direction({-1, 0, 1}, {0, 1, 0}).lights[0]);
+    Character character = plain(finished(face));
+    ASSERT_TRUE(character.set("translucency.strength", "0"));
+    View view = front_view(offscreen);
+    view.lighting = &lighting;
+    const Image image = test::draw(character, offscreen, view);
+    const double pixel_mm = 60.0 / side;
+    for (std::uint32_t x = 1; x < side / 2 - 1; ++x) {
+        const double at_mm = -30 + (x + 0.5) * pixel_mm;
+        if (std::abs(at_mm + 10) < 1.0) continue;  // the filter's width, and the bias
+        EXPECT_LE(std::abs(pixel(image, x, side / 2).r - (at_mm < -10 ? std::sqrt(0.5F) : 0.0F)), 2e-3F) << at_mm;
+        EXPECT_LE(std::abs(pixel(image, x, side / 2).g - std::sqrt(0.5F)), 2e-3F) << at_mm;
+    }
+}
+
 TEST_F(Lights, PointAndSpotLightsFollowTheInverseSquareAndTheirCone) {
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
     Face face;
@@ -325,6 +419,13 @@ TEST_F(Lights, PointAndSpotLightsFollowTheInverseSquareAndTheirCone) {
     image = test::draw(character, offscreen, view);
     EXPECT_LE(std::abs(pixel(image, side / 2, side / 2).r - 1), 3e-3F);
     EXPECT_EQ(pixel(image, 4, side / 2).r, 0.0F);
+    // Between them it fades by the cosine.
+    const double fades_mm = -30 + (14 + 0.5) * 60.0 / side, cosine = 200 / std::hypot(200.0, fades_mm, 0.625);
+    const double share = (cosine - std::cos(0.08)) / (std::cos(0.04) - std::cos(0.08));
+    ASSERT_GT(share, 0.2);
+    ASSERT_LT(share, 0.8);
+    EXPECT_NEAR(static_cast<double>(pixel(image, 14, side / 2).r),
+                cosine * cosine * cosine * share * share * (3 - 2 * share), 4e-3);
 }
 
 TEST_F(Lights, AWhiteFurnaceStaysWhite) {
@@ -391,6 +492,50 @@ TEST_F(Lights, AnEnvironmentTurnsAndShinesFromItsSide) {
     const float dark = pixel(test::draw(character, offscreen, view), 24, 24).r;
     EXPECT_GT(facing, 5 * away + 0.5F);
     EXPECT_EQ(dark, 0.0F);
+}
+
+TEST_F(Lights, ASurfaceMirrorsWhatStandsInTheMirrorsDirectionAsSharplyAsItIsSmooth) {
+    Image image;
+    image.width = 32;
+    image.height = 16;
+    image.channels = 3;
+    image.floats.assign(32 * 16 * 3, 0.0F);
+    std::fill_n(image.floats.begin(), 32 * 8 * 3, 1.0F);  // the upper half
+    const auto environment = make_environment(image);
+    ASSERT_TRUE(environment);
+    Lighting lighting;
+    lighting.environment = *environment;
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    // Black skin, whose surface alone shines; looked at from below and from above.
+    const auto mirrored = [&](float roughness, float eye_height) {
+        Face face;
+        add_block(face, 0.06F, 0.06F);
+        face = finished(std::move(face));
+        face.materials[0].base_color_linear = glm::vec4(0, 0, 0, 1);
+        face.materials[0].roughness = roughness;
+        Character character = plain(std::move(face));
+        EXPECT_TRUE(character.set("reflection.intensity", "1"));
+        View view = front_view(offscreen);
+        view.camera.view_from_world = glm::lookAt(glm::vec3(0, eye_height, 0.4F), glm::vec3(0), glm::vec3(0, 1, 0));
+        view.lighting = &lighting;
+        return pixel(test::draw(character, offscreen, view), side / 2, side / 2).r;
+    };
+    const float sky = mirrored(0.1F, -0.3F), ground = mirrored(0.1F, 0.3F);
+    EXPECT_NEAR(static_cast<double>(sky), skin_specular_albedo(0.8, 0.08), 3e-3);
+    EXPECT_LT(ground, 0.02F * sky);
+    // A wall in front, and then behind.
+    for (std::size_t y = 0; y < 16; ++y) {
+        for (std::size_t x = 0; x < 32; ++x)
+            std::fill_n(&image.floats[3 * (32 * y + x)], 3, x >= 8 && x < 24 ? 1.0F : 0.0F);
+    }
+    lighting.environment = *make_environment(image);
+    const float front = mirrored(0.1F, 0);
+    lighting.environment_turn_radians = 3.14159265F;
+    EXPECT_GT(front, 50 * mirrored(0.1F, 0));
+    lighting.environment_turn_radians = 0;
+    lighting.environment = *environment;
+    const float rough_sky = mirrored(0.8F, -0.3F), rough_ground = mirrored(0.8F, 0.3F);
+    EXPECT_GT(rough_ground, 0.1F * rough_sky);
 }
 
 TEST_F(Lights, WithoutLightTheFaceIsBlackAndScatteringIsLeftOut) {

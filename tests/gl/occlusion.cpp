@@ -215,6 +215,21 @@ TEST_F(OcclusionOnTheGpu, SkyAndGroundAreHiddenToo) {
     for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], twin[c], gpu_tolerance);
 }
 
+TEST_F(OcclusionOnTheGpu, AMirrorShowsTheOpenShareOfItsSurroundings) {
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    const Lighting lighting = room();
+    Face face = square();
+    face.materials[0].base_color_linear = {0, 0, 0, 1};
+    const View view = view_of(offscreen, lighting);
+    Character hidden = plain(face, same_everywhere(face, {{"", half_hidden()}})), open = plain(face, std::nullopt);
+    ASSERT_TRUE(hidden.set("reflection.intensity", "1"));
+    ASSERT_TRUE(open.set("reflection.intensity", "1"));
+    const glm::dvec3 all = middle(test::draw(open, offscreen, view)),
+                     part = middle(test::draw(hidden, offscreen, view));
+    ASSERT_GT(all.x, 0.005);
+    for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(part[c], openness(half_hidden()) * all[c], 2e-3 * all[c]) << c;
+}
+
 TEST_F(OcclusionOnTheGpu, AnOpenFaceIsDrawnAsWithoutAndLampsAreNotHidden) {
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
     const Face face = square();

@@ -301,6 +301,50 @@ TEST_F(Scattering, OnlyPixelsOfSkinAreWorkedOn) {
     EXPECT_LT(skin, image.light.size());
 }
 
+TEST_F(Scattering, PaintIsSharpWhereLightMeetsItOnItsWayOutAndSoftWhereOnItsWayIn) {
+    // A step of the base colour under light from all around: what scatters before it is constant.
+    Face face = test::make_face({.targets = 0});
+    for (glm::vec3& normal : face.normals) normal = {0, 1, 0};
+    Image image;
+    image.width = 8;
+    image.height = 1;
+    image.channels = 4;
+    for (int x = 0; x < 8; ++x) {
+        for (const std::uint8_t value : {std::uint8_t{255}, std::uint8_t{255}, std::uint8_t{255}, std::uint8_t{255}})
+            image.bytes.push_back(x < 4 || image.bytes.size() % 4 == 3 ? value : std::uint8_t{60});
+    }
+    face.images.push_back(image);
+    face.materials[0].base_color_srgb.image = 0;
+    Lighting lighting;
+    lighting.sky_radiance_linear = glm::vec3(1);
+    lighting.ground_radiance_linear = glm::vec3(1);
+    const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
+    const auto drawn = [&](const char* method, const char* before) {
+        Character character = make_character(face);
+        EXPECT_TRUE(character.set("scattering.method", method));
+        EXPECT_TRUE(character.set("scattering.albedo_before", before));
+        EXPECT_TRUE(character.set("scattering.millimetres_a_unit", "20"));
+        EXPECT_TRUE(character.set("reflection.intensity", "0"));
+        View view = test::framed_view(character, offscreen);
+        view.samples = 1;
+        view.lighting = &lighting;
+        return test::draw(character, offscreen, view);
+    };
+    const Image off = drawn("off", "0"), after = drawn("separable", "0"), before = drawn("separable", "1"),
+                half_way = drawn("separable", "0.5");
+    double worst_after = 0, worst_before = 0, worst_half_way = 0;
+    for (std::size_t i = 0; i < off.floats.size(); ++i) {
+        const auto apart = [&](const Image& a) { return static_cast<double>(std::abs(a.floats[i] - off.floats[i])); };
+        worst_after = std::max(worst_after, apart(after));
+        worst_before = std::max(worst_before, apart(before));
+        worst_half_way = std::max(worst_half_way, apart(half_way));
+    }
+    EXPECT_LE(worst_after, 2e-3);  // half floats of the light, the albedo and the sum
+    EXPECT_GT(worst_before, 0.1);
+    EXPECT_GT(worst_half_way, 0.3 * worst_before);
+    EXPECT_LT(worst_half_way, 0.9 * worst_before);
+}
+
 /// A dome of skin under a hard light, its base colour's opacity as given.
 class StrengthMap : public test::GlTest {
 protected:

@@ -96,6 +96,24 @@ TEST(FoldLayout, ThePartHoldsEveryZoneAndLittleElse) {
     }
 }
 
+TEST(FoldLayout, AFewTrianglesElsewhereDoNotWidenThePart) {
+    Face face;
+    add_sheet(face, 0, {0, 0}, {0.8F, 0.8F});
+    const CanonicalFrame frame = mean_frame();
+    std::vector<std::uint8_t> triangles(face.indices.size() / 3, 1);
+    const LayoutPart part = part_of_zones(face, triangles, frame, zones());
+    EXPECT_FALSE(part.is_whole());
+    // The rim of a lip's inside, at a corner of the mouth, in a chart of its own.
+    const auto corner = static_cast<std::uint32_t>(face.positions.size());
+    for (const glm::vec2 uv : {glm::vec2(0.95F, 0.95F), glm::vec2(0.96F, 0.95F), glm::vec2(0.95F, 0.96F)}) {
+        face.positions.emplace_back(27, -66, 0);
+        face.uv0.push_back(uv);
+    }
+    for (std::uint32_t c = 0; c < 3; ++c) face.indices.push_back(corner + c);
+    triangles.push_back(1);
+    EXPECT_EQ(part_of_zones(face, triangles, frame, zones()), part);
+}
+
 TEST(FoldLayout, TheWholeLayoutWhereThePartIsUnknown) {
     Face face;
     add_sheet(face, 0, {0, 0}, {1, 1});

@@ -183,6 +183,9 @@ TEST_F(Cli, ExplainNamesEveryEffectWithAReason) {
     EXPECT_EQ(json["active_targets"][0]["name"], "jawOpen");
     EXPECT_EQ(json["deltas_added"], 2);
     EXPECT_THAT(blush("explain face.glb --set jawOpen=0.5").output, HasSubstr("  jawOpen = 0.5\n"));
+    EXPECT_GT(json["scale"]["millimetres_a_unit"], 0);
+    EXPECT_THAT(blush("explain face.glb --setting scattering.millimetres_a_unit=52").output,
+                HasSubstr("scale: 52 mm a unit, since scattering.millimetres_a_unit says so\n"));
 }
 
 TEST_F(Cli, AccuracyWritesAPageAndNumbers) {

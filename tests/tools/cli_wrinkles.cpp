@@ -1,5 +1,8 @@
 /// blush bake wrinkles, and what becomes of its maps.
 
+#include <fstream>
+#include <iterator>
+
 #include "tests/tools/cli_run.h"
 
 namespace blush::test {
@@ -15,6 +18,14 @@ TEST_F(Cli, WrinklesAreBakedBesideAFaceAndFound) {
     expect_works("bake wrinkles head.glb -o again --size 64 --mask-size 16");
     expect_same("head.appearance/wrinkles.png", "again/wrinkles.png");
     expect_same("head.appearance/wrinkle_mask_1.png", "again/wrinkle_mask_1.png");
+    // Maps of the part of the layout that folds, or of all of it.
+    const auto holds_part = [&](const char* folder) {
+        std::ifstream file(path(std::string(folder) + "/wrinkles.json"));
+        return std::string(std::istreambuf_iterator<char>(file), {}).find("layout_from") != std::string::npos;
+    };
+    EXPECT_TRUE(holds_part("again"));
+    expect_works("bake wrinkles head.glb -o whole --size 64 --mask-size 16 --layout whole");
+    EXPECT_FALSE(holds_part("whole"));
     const Ran explained = blush("explain head.glb --emotion surprise=1");
     EXPECT_NE(explained.output.find("wrinkles"), std::string::npos);
     EXPECT_EQ(explained.output.find("has no wrinkle maps"), std::string::npos) << explained.output;

@@ -4,6 +4,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "runtime/character_state.h"
+#include "runtime/effect.h"
 #include "runtime/offscreen.h"
 #include "tools/blush/options.h"
 
@@ -53,6 +55,13 @@ Json describe_rig(const Rig& rig, const Pose& pose) {
     }
     json["hemoglobin_factor"] = pose.hemoglobin_factor;
     return json;
+}
+
+/// How large the face is taken to be: what scattering, translucency and the lens reckon in.
+Json describe_scale(const CharacterState& state) {
+    const bool set = state.settings.number(scattering_effect.name, "millimetres_a_unit") > 0;
+    return {{"millimetres_a_unit", state.millimetres_a_unit},
+            {"told_by", set ? "scattering.millimetres_a_unit says so" : state.scale.told_by}};
 }
 
 void print_values(const char* what, const Json& values) {
@@ -123,6 +132,8 @@ void print(const Json& json) {
         }
         std::cout << "\n";
     }
+    std::cout << "scale: " << json["scale"]["millimetres_a_unit"].get<float>() << " mm a unit, since "
+              << text(json["scale"]["told_by"]) << "\n";
     std::cout << "passes\n";
     for (const Json& pass : json["passes"]) {
         std::cout << "  " << text(pass["name"]) << (pass["runs"].get<bool>() ? "" : ": culled, nothing reads it")
@@ -149,6 +160,7 @@ int explain(const Options& options) {
     const FrameReport& report = draw_alone(character, view);
     if (const int found = report_not_finite(report); found != 0) return found;
     Json json = describe(character.face(), report);
+    json["scale"] = describe_scale(character.state());
     json["rig"] = describe_rig(character.rig(), character.pose());
     if (options.json) {
         std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";

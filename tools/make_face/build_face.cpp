@@ -29,13 +29,14 @@ FaceParts build_face(std::size_t vertices, const Person& person, int texture_sid
     enum MaterialIndex : std::size_t { skin, eye, tooth, gum, tongue, lash, brow, hair, caruncle };
     const int eye_texture_side = texture_side * 2 / 3;
     face.materials.resize(9);
+    const double aged = smooth_step(35, 75, person.shape[*parameter_index("age")]);
     const SkinColourTable table;
     const SurfaceTexels texels(head, texture_side), coarse_texels(head, texture_side / 2);
     face.pigments = paint_pigments(texels, person.skin, table);
     face.materials[skin] = {.name = "skin",
                             .roughness = 1,
                             .base_color_png = png(base_color(*face.pigments, table)),
-                            .normal_png = png(paint_relief(texels)),
+                            .normal_png = png(paint_relief(texels, aged)),
                             .roughness_png = png(paint_roughness(coarse_texels)),
                             .specular_png = png(paint_specular(coarse_texels)),
                             .occluded = true};

@@ -99,7 +99,8 @@ HairCards make_hair_cards(const HairStyle& style) {
                 const Vec3 beside = glm::cross(way, normal);
                 way = glm::normalize(way + beside * (0.20 * turn_luck));
                 // Hair leaves the scalp at a slant, then lies on what is below it; tips stand off a little.
-                const double off = hair_thickness(q) + raised * (0.12 + 0.88 * smooth_step(0, 0.45, t)) + 1.6 * style.lift * t * t * roll;
+                const double off = hair_thickness(q) + raised * (0.12 + 0.88 * smooth_step(0, 0.45, t)) +
+                                   1.6 * style.lift * t * t * roll;
                 const Vec3 side = glm::normalize(glm::cross(way, normal) + normal * (0.35 * roll));
                 const double half = half_width * mix(0.85, 1.0, smooth_step(0, 0.3, t)) * mix(1, 0.75, t);
                 const Vec3 p = q + normal * off;

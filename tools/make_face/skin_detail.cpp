@@ -25,7 +25,7 @@ double furrow(double x, double cell, double sharpness) {
 }
 
 /// Height of the skin over its mean surface, millimetres.
-double relief(const SurfaceTexel& texel) {
+double relief(const SurfaceTexel& texel, double aged) {
     const Vec3 p = texel.place(), half = texel.half();
     if (texel.part == Part::mouth_lining || texel.part == Part::lid_lining) return 0.010 * noise(p / 0.8);
     if (texel.part == Part::skin && hair_paint(p) > 0.5) return 0.5 * hair_relief(p);
@@ -54,6 +54,17 @@ double relief(const SurfaceTexel& texel) {
         skin += 0.040 * bell(from_corner, Vec3(0), {14, 12, 16}) *
                 furrow(noise({fan * 9, glm::length(from_corner) / 9, 6.5}), 0.35, 2);
         skin += 0.045 * smooth_step(-105, -122, p.y) * furrow(noise({u / 22, v / 4.2 + noise(p / 15.0), 2.5}), 0.25, 2);
+        if (aged > 0) {
+            // Folds that stay: across the forehead, out from the eye's corner, below the eye, around the neck.
+            skin += aged * 0.55 * forehead * furrow(noise({u / 60, v / 7.5 + 0.5 * noise(p / 24.0), 5.5}), 0.22, 2);
+            skin += aged * 0.40 * bell(from_corner, Vec3(0), {15, 13, 18}) *
+                    furrow(noise({fan * 5, glm::length(from_corner) / 26, 2.5}), 0.25, 2);
+            skin += aged * 0.28 * bell(half, {30, -15, 78}, {14, 6, 14}) *
+                    furrow(noise({u / 18, (v + 0.25 * u) / 3.4, 7.5}), 0.25, 2);
+            skin += aged * 0.45 * smooth_step(-105, -122, p.y) *
+                    furrow(noise({u / 50, v / 11 + noise(p / 25.0), 4.5}), 0.15, 2);
+            skin += aged * 0.08 * (furrow(across, 0.6, 2) + furrow(other, 0.6, 2));
+        }
         // Slow unevenness: no skin is a smooth shell.
         skin += 0.075 * noise(p / 3.4) + 0.035 * noise(p / 1.3);
         h = skin * (1 - lip);
@@ -69,10 +80,10 @@ double relief(const SurfaceTexel& texel) {
 
 }  // namespace
 
-Picture paint_relief(const SurfaceTexels& texels) {
+Picture paint_relief(const SurfaceTexels& texels, double aged) {
     const int side = texels.side();
     std::vector<double> height(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
-    texels.for_each([&](int, int, const SurfaceTexel& texel, std::size_t k) { height[k] = relief(texel); });
+    texels.for_each([&](int, int, const SurfaceTexel& texel, std::size_t k) { height[k] = relief(texel, aged); });
     Picture picture(side, side, 3, 128);
     for (std::size_t k = 2; k < picture.bytes.size(); k += 3) picture.bytes[k] = 255;
     // Slopes by central differences between texels, over the way between their places on the skin; one-sided at the
@@ -110,7 +121,8 @@ Picture paint_roughness(const SurfaceTexels& texels) {
     }
     texels.for_each([&](int x, int y, const SurfaceTexel& texel, std::size_t) {
         const Vec3 p = texel.place(), half = texel.half();
-        double roughness = mix(dry, shining, oily(half)) + 0.05 * fractal_noise(p / 2.2, 2) - 0.03 * around_eye(half);
+        double roughness = mix(dry, shining, oily(half)) + 0.05 * fractal_noise(p / 2.2, 2) - 0.03 * around_eye(half) +
+                           0.2 * temple(half);
         double seen = 1;
         if (texel.part == Part::skin) {
             roughness = mix(roughness, lips + 0.05 * noise(p / 1.5), 0.9 * lip_cover(p));
@@ -141,8 +153,7 @@ Picture paint_specular(const SurfaceTexels& texels) {
     Picture picture(texels.side(), texels.side(), 4, 255);
     texels.for_each([&](int x, int y, const SurfaceTexel& texel, std::size_t) {
         const Vec3 p = texel.place(), half = texel.half();
-        double intensity = mix(0.38, 0.85, oily(half)) * (1 - 0.5 * bell(half, {58, 2, 46}, {16, 26, 30})) +
-                           0.08 * fractal_noise(p / 3.0, 2);
+        double intensity = mix(0.38, 0.85, oily(half)) * (1 - 0.5 * temple(half)) + 0.08 * fractal_noise(p / 3.0, 2);
         if (texel.part == Part::skin) {
             intensity = mix(intensity, 0.9, lip_cover(p));
             intensity = mix(intensity, 0.05, std::max(hair_paint(p), 0.5 * brow_cover(p)));

@@ -8,7 +8,8 @@ namespace blush::make_face {
 
 /// Tangent-space normals (green up): pores, wide on nose and cheeks; fine crossing lines that are coarser on the
 /// forehead and finer about the eyes; upright furrows on the lips; strands on the scalp.
-Picture paint_relief(const SurfaceTexels& texels);
+/// `aged`: 0 young, 1 old: how deep the lines of forehead, eye's corner and neck have become.
+Picture paint_relief(const SurfaceTexels& texels, double aged = 0);
 
 /// Red: how much of the surroundings the place sees (glTF's occlusion). Green: roughness: oily forehead, nose and chin,
 /// drier cheeks, moist lips, wet rims of the lids. Blue: metallic, none.

@@ -55,6 +55,8 @@ double oily(const Vec3& half) {
                      0.7 * bell(half, {0, -98, 88}, {16, 12, 18})});
 }
 
+double temple(const Vec3& half) { return bell(half, {58, 2, 46}, {16, 26, 30}); }
+
 double wide_pored(const Vec3& half) {
     return std::max(bell(half, {0, -34, 104}, {17, 20, 26}), 0.8 * bell(half, {27, -34, 78}, {17, 17, 22}));
 }

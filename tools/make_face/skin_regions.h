@@ -21,6 +21,8 @@ double nostril(const SurfaceTexel& texel);
 
 /// Forehead, nose and chin, where the skin is oily.
 double oily(const Vec3& half);
+/// Temple and cheekbone, where it is dry.
+double temple(const Vec3& half);
 /// Nose and the cheeks beside it, where pores are wide.
 double wide_pored(const Vec3& half);
 
