@@ -267,7 +267,9 @@ void main() {
 #if defined(SKIN) && defined(TRANSLUCENCY)
         entering += arrives.radiance * transmitted(light, map, l, vertex_normal);
 #endif
-#ifndef HAIR
+#ifdef HAIR
+        if (n_l <= -strands_wrap) continue;
+#else
         if (n_l <= 0.0) continue;
 #endif
         vec3 radiance = arrives.radiance;

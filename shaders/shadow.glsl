@@ -105,6 +105,10 @@ float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l) {
     float here = light.shadow.w != 0.0 ? far * (distance_here - near) / (max(distance_here, 1e-9) * (far - near))
                                            : (distance_here - near) / (far - near);
     vec2 middle = shadow_texel(light, place.xy);
+#ifdef HAIR
+    // What strands hide from each other is as broken up as they are: no soft edge shows.
+    return lit_texels(light, middle, distance_here, 1.0 / vec2(textureSize(shadow_map, 0)));
+#endif
     vec2 at = middle - 0.5;
     vec2 part = fract(at);
     // 4 x 4 texels by four gathers; the outer rows and columns count in part.
@@ -120,12 +124,8 @@ float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l) {
             sum += wy.y * (wx.x * lit.x + wx.y * lit.y) + wy.x * (wx.y * lit.z + wx.x * lit.w);
         }
     }
-#ifdef HAIR
-    return sum / 9.0;  // what strands hide from each other is as broken up as they are: no soft edge shows
-#else
     if (light.shadow_depth.z == 0.0) return sum / 9.0;
     return soft_share(light, middle, distance_here, texel, vertex_normal, l, sum / 9.0);
-#endif
 }
 
 // How far the light came inside, world units, at most `most`; of a point that stands a little below the surface. Where
