@@ -60,6 +60,8 @@ protected:
         constexpr float aspect = static_cast<float>(width) / height;
         OrbitCamera camera = character_.framing(aspect);
         camera.distance *= 0.8F;
+        // The shoulders' vertices lie too far apart to tell skin by them.
+        camera.target_world.y += 0.04F * camera.distance;
         view_.camera = camera.camera(aspect);
     }
 
