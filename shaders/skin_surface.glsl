@@ -35,9 +35,9 @@ vec3 transmitted(Light light, InMap map, vec3 l, vec3 vertex_normal) {
     if (back == 0.0 || light.shadow.x < 0.0) return vec3(0.0);
     float thickness_mm =
         depth_inside(light, map.here - map.along_normal * (translucency.y / skin.x), translucency.z / skin.x) * skin.x;
-    // The paper leaves the thickness short by what the point was drawn in; a slab has it all, up to 70 degrees from its
+    // The paper leaves the thickness short by what the point was drawn in; a slab has it all, up to 45 degrees from its
     // normal. Where light grazes more, a surface is no slab's, and its own depth is the better guess.
-    float facing_away = max(-dot(vertex_normal, l), 0.0), bounded = max(facing_away, 0.35);
+    float facing_away = max(-dot(vertex_normal, l), 0.0), bounded = max(facing_away, 0.7);
     thickness_mm += translucency.y * facing_away / (bounded * bounded);
     if (!(thickness_mm < translucency.z)) return vec3(0.0);
     vec3 passed = vec3(0.0);  // T(s), eq. 5.12

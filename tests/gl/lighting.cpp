@@ -129,7 +129,7 @@ TEST_F(Lights, ThroughASlabSlantedLightGoesItsWholeWay) {
     constexpr double slab_mm = 2.5;
     Face face;
     add_block(face, static_cast<float>(slab_mm / 1000), static_cast<float>(slab_mm / 1000));
-    for (const float degrees : {0.0F, 30.0F, 60.0F}) {
+    for (const float degrees : {0.0F, 30.0F, 44.0F}) {
         for (const double strength : {1.0, 0.5}) {
             for (const double drawn_in_mm : {0.5, 1.0}) {
                 const float angle = degrees / 57.29578F;
@@ -150,6 +150,18 @@ TEST_F(Lights, ThroughASlabSlantedLightGoesItsWholeWay) {
             }
         }
     }
+}
+
+TEST_F(Lights, ThroughTheOpenBackOfAShellComesNone) {
+    const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
+    Face face;
+    add_quad(face, {-0.03F, -0.03F, 0}, {0.03F, -0.03F, 0}, {0.03F, 0.03F, 0}, {-0.03F, 0.03F, 0});
+    const Lighting behind = from_direction({0, 0, -1}, glm::vec3(1));
+    Character character = plain(finished(face));
+    View view = front_view(offscreen);
+    view.lighting = &behind;
+    const Image image = test::draw(character, offscreen, view);
+    EXPECT_EQ(pixel(image, side / 2, side / 2), glm::vec3(0));
 }
 
 /// Half floats hold 0.05 %, the tables 0.5 % of a highlight.

@@ -340,7 +340,7 @@ TEST_F(Scattering, PaintIsSharpWhereLightMeetsItOnItsWayOutAndSoftWhereOnItsWayI
         worst_half_way = std::max(worst_half_way, apart(half_way));
     }
     EXPECT_LE(worst_after, 2e-3);  // half floats of the light, the albedo and the sum
-    EXPECT_GT(worst_before, 0.1);
+    EXPECT_GT(worst_before, 0.03);
     EXPECT_GT(worst_half_way, 0.3 * worst_before);
     EXPECT_LT(worst_half_way, 0.9 * worst_before);
 }
