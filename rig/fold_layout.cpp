@@ -21,9 +21,12 @@ public:
     Outermost() : radius_mm_(std::size_t{columns} * rows, 0.0F) {}
 
     void add(const std::array<glm::vec2, 3>& mm, const std::array<float, 3>& radius) {
-        const glm::vec2 low = glm::min(mm[0], glm::min(mm[1], mm[2])), high = glm::max(mm[0], glm::max(mm[1], mm[2]));
+        glm::vec2 low = glm::min(mm[0], glm::min(mm[1], mm[2])), high = glm::max(mm[0], glm::max(mm[1], mm[2]));
         // Behind the head, where x jumps, lies no zone.
         if (high.x - low.x > CanonicalFrame::turn_mm() / 2) return;
+        const glm::vec2 border = cell_mm * glm::vec2(columns, rows) / 2.0F;
+        low = glm::max(low, -border);
+        high = glm::min(high, border);
         for (std::size_t c = 0; c < 3; ++c) put(mm[c], radius[c]);
         const glm::vec2 a = mm[1] - mm[0], b = mm[2] - mm[0];
         const float area = a.x * b.y - a.y * b.x;

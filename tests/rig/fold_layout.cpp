@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "rig/wrinkle_zones.h"
 
@@ -125,6 +127,22 @@ TEST(FoldLayout, TheWholeLayoutWhereThePartIsUnknown) {
     EXPECT_TRUE(part_of_zones(beyond, triangles, mean_frame(), zones()).is_whole()) << "it repeats";
     beyond.uv0.clear();
     EXPECT_TRUE(part_of_zones(beyond, triangles, mean_frame(), zones()).is_whole());
+}
+
+TEST(FoldLayout, PlacesFarAwayAndOddOnesEnd) {
+    for (const float odd : {1e30F, -1e30F, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Face face;
+            add_sheet(face, 0, {0, 0}, {1, 1});
+            face.positions[side * side / 2][axis] = odd;
+            const std::vector<std::uint32_t> all = {0};
+            const CanonicalFrame frame = mean_frame();
+            const std::vector<std::uint8_t> outer = outer_triangles(face, all, frame);
+            const LayoutPart part = part_of_zones(face, outer, frame, zones());
+            EXPECT_LT(part.from.x, part.to.x);
+            EXPECT_LT(part.from.y, part.to.y);
+        }
+    }
 }
 
 TEST(FoldLayout, CroppingKeepsSurfaceAndMovesTextureCoordinates) {
