@@ -256,6 +256,10 @@ void main() {
     entering += ambient * occlusion;
 #endif
 
+#ifdef SHADOWS
+    // Vertices are placed to a 256th of a pixel or so: more than a texel of a shadow map where a head is a few pixels.
+    float vague = length(fwidth(position_world)) / 128.0;
+#endif
     for (int i = 0; i < counts.x; ++i) {
         Light light = lights[i];
         Arriving arrives = arriving(light);
@@ -274,9 +278,9 @@ void main() {
 #ifdef SHADOWS
 #ifdef HAIR
         // Strands hide a part of the light from each other and send most of it on.
-        radiance *= mix(0.3, 1.0, lit_share(light, map, vertex_normal, l));
+        radiance *= mix(0.3, 1.0, lit_share(light, map, vertex_normal, l, vague));
 #else
-        radiance *= lit_share(light, map, vertex_normal, l);
+        radiance *= lit_share(light, map, vertex_normal, l, vague);
 #endif
 #endif
         vec3 h = l + view;
