@@ -4,7 +4,7 @@
 
 // At the centroid of the samples that are covered: the middle of a pixel may lie beyond a triangle's edge, and where that
 // is seen from its side, far beyond what the surface has there.
-centroid in vec3 position_world;
+in vec3 position_world;  // in the middle: shadows of triangles smaller than a pixel hold there alone
 centroid in vec3 normal_world;
 centroid in vec4 tangent_world;
 centroid in vec2 texture_uv[6];
@@ -271,7 +271,9 @@ void main() {
 #if defined(SKIN) && defined(TRANSLUCENCY)
         entering += arrives.radiance * transmitted(light, map, l, vertex_normal);
 #endif
-#ifndef HAIR
+#ifdef HAIR
+        if (n_l <= -strands_wrap) continue;
+#else
         if (n_l <= 0.0) continue;
 #endif
         vec3 radiance = arrives.radiance;

@@ -112,6 +112,9 @@ float lobe(float radians, float shift, float width) {
     return exp(-0.5 * x * x) / (width * 2.5066);
 }
 
+// Cosine behind the light's horizon to which it comes around strands.
+const float strands_wrap = 0.25;
+
 // x: of the diffuse light; yz: of the first and of the coloured highlight, over the light's radiance.
 vec3 strand_shares(vec3 strand, vec3 n, vec3 l, vec3 view) {
     float sin_l = clamp(dot(strand, l), -1.0, 1.0), sin_v = clamp(dot(strand, view), -1.0, 1.0);
@@ -128,7 +131,7 @@ vec3 strand_shares(vec3 strand, vec3 n, vec3 l, vec3 view) {
     float second = 0.046 * around * lobe(half_angle, 11.0 * degree, 18.0 * degree);
     // A card stands for strands one behind the other: those turned away from the light are in the shadow of the rest,
     // and of those that shine half are hidden.
-    float before_others = clamp((dot(n, l) + 0.25) / 1.25, 0.0, 1.0);
+    float before_others = clamp((dot(n, l) + strands_wrap) / (1.0 + strands_wrap), 0.0, 1.0);
     return before_others * vec3(cos_l, 0.5 * first * before_others, second);
 }
 #endif

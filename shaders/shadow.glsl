@@ -107,6 +107,10 @@ float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l, float vague)
     float here = light.shadow.w != 0.0 ? far * (distance_here - near) / (max(distance_here, 1e-9) * (far - near))
                                            : (distance_here - near) / (far - near);
     vec2 middle = shadow_texel(light, place.xy);
+#ifdef HAIR
+    // What strands hide from each other is as broken up as they are: no soft edge shows.
+    return lit_texels(light, middle, distance_here, 1.0 / vec2(textureSize(shadow_map, 0)));
+#endif
     vec2 at = middle - 0.5;
     vec2 part = fract(at);
     // 4 x 4 texels by four gathers; the outer rows and columns count in part.

@@ -97,6 +97,7 @@ std::vector<Study> studies(const Device& device, const Face& face, double millim
     std::vector<Study> result = wrinkle_frame_study(device, face, millimetres_a_unit);
     std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
     if (!probe || !probe->state().appearance.wrinkles) return result;
+    probe->state().appearance.wrinkles->part = {};  // a texel of the map for a point of the probe
 
     Study stored{"stored wrinkle map of the face, every zone at 0.7",
                  "the map in single precision on the CPU",

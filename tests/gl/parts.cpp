@@ -148,6 +148,56 @@ TEST_F(Parts, CutOutStrandsHaveSoftEdgesWithSamples) {
     EXPECT_GT(greys(4), hard + 12) << "one more in a third of the rows";
 }
 
+/// A second card halfway to the skin, after the first in the file's order, whose strand is of the other colour.
+Face two_cards() {
+    Face face = card_before_skin(AlphaMode::blend);
+    for (std::size_t p = 0; p < 256; ++p) {
+        if (p % 16 / 4 == 2) face.images[0].bytes[4 * p] = 250;
+    }
+    const auto first = static_cast<std::uint32_t>(face.positions.size());
+    const auto first_index = static_cast<std::uint32_t>(face.indices.size());
+    for (std::uint32_t v = first - 4; v < first; ++v) {
+        face.positions.push_back(face.positions[v] - glm::vec3(0, 0, 0.002F));
+        face.normals.push_back(face.normals[v]);
+        face.tangents.push_back(face.tangents[v]);
+        face.uv0.emplace_back(0.625F, 0.5F);
+        face.uv1.emplace_back(0);
+    }
+    face.indices.insert(face.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    test::add_primitive(face, first, first_index);
+    face.primitives.back().material = 1;
+    face.meshes[0].primitive_count = 3;
+    return face;
+}
+
+TEST_F(Parts, ANearerStrandHidesOneThatTheFileHasLater) {
+    Face without = two_cards();
+    without.primitives[2].index_count = 0;
+    Character one = with(without, "shadows.method", "off"), two = with(two_cards(), "shadows.method", "off");
+    const Image image = draw(one, 1);
+    const std::vector<bool> unchanged = same(image, draw(two, 1));
+    std::size_t changed = 0;
+    for (std::size_t x = 36; x < 52; ++x) changed += unchanged[32 * side + x] ? 0U : 1U;
+    EXPECT_GT(changed, 2U) << "the second card is seen between the strands of the first";
+    EXPECT_LT(changed, 12U) << "and nowhere else";
+}
+
+TEST_F(Parts, OpaqueStrandsCastShadows) {
+    Face bald = card_before_skin(AlphaMode::blend);
+    bald.primitives[1].index_count = 0;
+    Character card = with(card_before_skin(AlphaMode::blend), "shadows.method", "off"),
+              none = with(bald, "shadows.method", "off");
+    const std::vector<bool> beside = same(draw(card, 1), draw(none, 1));
+    ASSERT_TRUE(card.set("shadows.method", "maps"));
+    ASSERT_TRUE(none.set("shadows.method", "maps"));
+    const Image shadowed = draw(card, 1), lit = draw(none, 1);
+    std::size_t darker = 0;
+    for (std::size_t p = 0; p < beside.size(); ++p) {
+        if (beside[p] && shadowed.floats[4 * p] < 0.9F * lit.floats[4 * p]) ++darker;
+    }
+    EXPECT_GT(darker, 20U);
+}
+
 /// Two balls in a plate of skin with a round hole for each.
 Face two_eyes() {
     Face face;

@@ -287,5 +287,47 @@ TEST(Teeth, NoTargetAndNoCommonPairPushesSkinIntoThem) {
     pair("mouthPucker", "mouthFunnel");
 }
 
+/// The place in the default head's space that a person's place comes from: fixed-point steps, since the map is near
+/// one.
+Vec3 unshaped(const PersonShape& shape, const Vec3& p) {
+    Vec3 q = p;
+    for (int step = 0; step < 6; ++step) q += p - shape(q);
+    return q;
+}
+
+TEST(Teeth, NoPresetsTargetPushesItsSkinIntoItsTeeth) {
+    const Head& head = bare().head;
+    for (const Person& person : persons()) {
+        SCOPED_TRACE(person.name);
+        FaceParts parts = bare().parts;
+        const PersonShape shape(person);
+        reshape(parts, shape);
+        const Vec3 hinge = shape(landmark::jaw_hinge);
+        const double c = std::cos(jaw_open_angle), s = -std::sin(jaw_open_angle);
+        for (const ShapeTarget& t : parts.meshes[0].targets) {
+            if (!t.name.starts_with("mouth") && t.name != "jawOpen" && t.name != "cheekPuff") continue;
+            double deepest = 0;
+            for (Index v = 0; v < head.mesh.positions.size(); ++v) {
+                const VertexTag& tag = head.tags[v];
+                const Vec3& rest = head.mesh.positions[v];
+                if (tag.part == Part::ear || t.position_deltas[v] == Vec3(0) || std::abs(rest.x) > 36 || rest.z < 42)
+                    continue;
+                // Far inside, the lining is the mouth's floor and roof, which lie within the arch.
+                if (tag.part == Part::mouth_lining && tag.depth > 0.5) continue;
+                const Vec3 end = parts.meshes[0].mesh.positions[v] + t.position_deltas[v];
+                const Vec3 arm = end - hinge;
+                const Vec3 closed =
+                    t.name == "jawOpen" ? hinge + Vec3(arm.x, c * arm.y - s * arm.z, s * arm.y + c * arm.z) : end;
+                if (depth_in_teeth(Jaw::upper, rest) == 0)
+                    deepest = std::max(deepest, depth_in_teeth(Jaw::upper, unshaped(shape, end)));
+                if (depth_in_teeth(Jaw::lower, rest) == 0)
+                    deepest = std::max(deepest, depth_in_teeth(Jaw::lower, unshaped(shape, closed)));
+            }
+            if (deepest > 0.05) std::printf("  %s, %s: %.2f mm\n", person.name.c_str(), t.name.c_str(), deepest);
+            EXPECT_LT(deepest, 0.5) << t.name;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace blush::make_face
