@@ -4,7 +4,7 @@
 
 // At the centroid of the samples that are covered: the middle of a pixel may lie beyond a triangle's edge, and where that
 // is seen from its side, far beyond what the surface has there.
-in vec3 position_world;  // in the middle: shadows of triangles smaller than a pixel hold there alone
+centroid in vec3 position_world;
 centroid in vec3 normal_world;
 centroid in vec4 tangent_world;
 centroid in vec2 texture_uv[6];
