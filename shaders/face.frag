@@ -4,7 +4,7 @@
 
 // At the centroid of the samples that are covered: the middle of a pixel may lie beyond a triangle's edge, and where that
 // is seen from its side, far beyond what the surface has there.
-in vec3 position_world;  // in the middle: shadows of triangles smaller than a pixel hold there alone
+centroid in vec3 position_world;
 centroid in vec3 normal_world;
 centroid in vec4 tangent_world;
 centroid in vec2 texture_uv[6];
@@ -256,6 +256,10 @@ void main() {
     entering += ambient * occlusion;
 #endif
 
+#ifdef SHADOWS
+    // Vertices are placed to a 256th of a pixel or so: more than a texel of a shadow map where a head is a few pixels.
+    float vague = length(fwidth(position_world)) / 128.0;
+#endif
     for (int i = 0; i < counts.x; ++i) {
         Light light = lights[i];
         Arriving arrives = arriving(light);
@@ -276,9 +280,9 @@ void main() {
 #ifdef SHADOWS
 #ifdef HAIR
         // Strands hide a part of the light from each other and send most of it on.
-        radiance *= mix(0.3, 1.0, lit_share(light, map, vertex_normal, l));
+        radiance *= mix(0.3, 1.0, lit_share(light, map, vertex_normal, l, vague));
 #else
-        radiance *= lit_share(light, map, vertex_normal, l);
+        radiance *= lit_share(light, map, vertex_normal, l, vague);
 #endif
 #endif
         vec3 h = l + view;

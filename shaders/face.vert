@@ -10,7 +10,7 @@ layout(location = BLUSH_UV1_ATTRIBUTE) in vec2 uv1;
 // The core of hair is drawn twice, the second time where its depth is what the first one left.
 invariant gl_Position;
 
-out vec3 position_world;
+centroid out vec3 position_world;
 centroid out vec3 normal_world;
 centroid out vec4 tangent_world;
 centroid out vec2 layout_uv;      // of the face's own maps

@@ -90,18 +90,20 @@ float soft_share(Light light, vec2 at, float distance_here, float texel, vec3 no
     return sum / float(filter_taps);
 }
 
-float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l) {
+// `vague`: world units by which the rasteriser misplaces the pixel.
+float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l, float vague) {
     if (light.shadow.x < 0.0) return 1.0;
     // Off the surface along its normal by the width of the filter as the surface sees it: no freckles where light
     // grazes, and no gap where it does not. A texel is wider farther from a light with a perspective.
     float texel = light.shadow.z;
     if (light.shadow.w != 0.0) texel *= distance(position_world, light.position_world.xyz);
+    float bias = max(texel, vague);
     float n_l = clamp(dot(vertex_normal, l), 0.0, 1.0);
-    vec4 place = shadow_place(map.here + map.along_normal * (texel * (0.5 + 2.0 * sqrt(1.0 - n_l * n_l))));
+    vec4 place = shadow_place(map.here + map.along_normal * (bias * (0.5 + 2.0 * sqrt(1.0 - n_l * n_l))));
     if (place.w == 0.0) return 1.0;
-    // The surface's own depth less a texel, as the map stores it.
+    // The surface's own depth less the bias, as the map stores it.
     float near = light.shadow_depth.x, far = light.shadow_depth.y;
-    float distance_here = shadow_distance(light, place.z) - texel;
+    float distance_here = shadow_distance(light, place.z) - bias;
     float here = light.shadow.w != 0.0 ? far * (distance_here - near) / (max(distance_here, 1e-9) * (far - near))
                                            : (distance_here - near) / (far - near);
     vec2 middle = shadow_texel(light, place.xy);
