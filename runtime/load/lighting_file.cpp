@@ -120,13 +120,13 @@ Result<Lighting> named_lighting(std::string_view name) {
         lighting.lights = {from({0.25F, 0.3F, -1}, {6, 5.8F, 5.5F}), from({-0.5F, 0.2F, 1}, {0.12F, 0.14F, 0.18F})};
     } else if (name == "orbit") {
         constexpr float minute_seconds = 60;
-        // Ears need a light behind them that is ten times as bright as the one in front; with automatic exposure the
+        // Ears need a light behind them that is twenty times as bright as the one in front; with automatic exposure the
         // face is not too bright when it comes round.
-        lighting.lights = {from({-0.3F, 0.3F, 1}, {5.0F, 4.8F, 4.5F}), from({0.25F, 0.35F, 1}, {0.5F, 0.5F, 0.53F})};
+        lighting.lights = {from({-0.3F, 0.3F, 1}, {5.0F, 4.8F, 4.5F}), from({0.25F, 0.35F, 1}, {0.25F, 0.25F, 0.265F})};
         lighting.lights[0].orbit_seconds = minute_seconds;
         lighting.lights[1].casts_shadow = false;
-        lighting.sky_radiance_linear = {0.1F, 0.11F, 0.12F};
-        lighting.ground_radiance_linear = {0.04F, 0.037F, 0.035F};
+        lighting.sky_radiance_linear = {0.06F, 0.065F, 0.07F};
+        lighting.ground_radiance_linear = {0.024F, 0.022F, 0.021F};
     } else {
         return Error{"there is no lighting \"" + std::string(name) +
                      "\" (there are: front, side, behind, orbit; or a .json file)"};
