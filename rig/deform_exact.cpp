@@ -27,7 +27,7 @@ glm::dvec3 angle_weighted(const NormalTopology& topology, const std::vector<glm:
 /// The rest normal turned by the shortest arc between the directions of the two sums, as a rotation matrix.
 glm::dvec3 turned(glm::dvec3 rest_normal, glm::dvec3 rest_sum, glm::dvec3 deformed_sum) {
     // Where single precision has no direction either (surface_normals.h), the rest normal is the definition.
-    constexpr double smallest_length = 1e-15;
+    constexpr double smallest_length = 1e-3;
     if (glm::length(rest_sum) <= smallest_length || glm::length(deformed_sum) <= smallest_length) return rest_normal;
     const glm::dvec3 from = glm::normalize(rest_sum), to = glm::normalize(deformed_sum);
     const double c = glm::dot(from, to);

@@ -14,6 +14,10 @@ namespace {
 // 1 + cos(179.9 degrees): closer to half a turn than this the axis of the shortest arc is noise.
 constexpr float half_turn = 1.5e-6F;
 
+// The squared length of a sum of angles times normals, radians: triangles that face each other (a card with both sides)
+// cancel, and leave 1e-7 of an angle as noise.
+constexpr float shortest_sum2 = 1e-6F;
+
 float dot3(glm::vec3 a, glm::vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// Angle between two unit vectors from the length of their cross product and their dot product, 0 to pi. The arc
@@ -115,6 +119,9 @@ glm::vec3 normalized_or(glm::vec3 v, glm::vec3 fallback) {
 
 glm::vec3 turned_normal(glm::vec3 rest_normal, glm::vec3 rest_sum, glm::vec3 deformed_sum) {
     if (rest_sum == deformed_sum) return rest_normal;
+    // Negated so that a NaN keeps the rest normal.
+    if (!(dot3(rest_sum, rest_sum) > shortest_sum2 && dot3(deformed_sum, deformed_sum) > shortest_sum2))
+        return rest_normal;
     const glm::vec3 from = normalized_or(rest_sum, glm::vec3(0));
     const glm::vec3 to = normalized_or(deformed_sum, glm::vec3(0));
     if (from == glm::vec3(0) || to == glm::vec3(0)) return rest_normal;

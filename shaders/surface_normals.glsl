@@ -46,6 +46,7 @@ vec3 angle_times_normal(vec3 edge, vec3 other_edge) {
 
 vec3 turned_normal(vec3 rest_normal, vec3 rest_sum, vec3 deformed_sum) {
     if (rest_sum == deformed_sum) return rest_normal;
+    if (!(dot3(rest_sum, rest_sum) > 1e-6 && dot3(deformed_sum, deformed_sum) > 1e-6)) return rest_normal;
     vec3 from = normalized_or(rest_sum, vec3(0.0));
     vec3 to = normalized_or(deformed_sum, vec3(0.0));
     if (from == vec3(0.0) || to == vec3(0.0)) return rest_normal;

@@ -233,8 +233,8 @@ Picture base_color(const AppearanceMaps& maps, const SkinColourTable& table) {
         for (int y = first_row; y < last_row; ++y) {
             for (int x = 0; x < side; ++x) {
                 const auto k = static_cast<std::size_t>(y) * maps.melanin.width + static_cast<std::size_t>(x);
-                const glm::vec3 c =
-                    maps.residual.values[k] * table.colour_linear(maps.melanin.values[k], maps.hemoglobin.values[k]);
+                const glm::dvec3 c(maps.residual.values[k] *
+                                   table.colour_linear(maps.melanin.values[k], maps.hemoglobin.values[k]));
                 picture.set(x, y, {srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)});
             }
         }
