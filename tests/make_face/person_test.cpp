@@ -1,8 +1,10 @@
 /// Persons: presets and parameters are read with their ranges, and the laws of the default face hold for each of them.
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -285,6 +287,52 @@ TEST(Teeth, NoTargetAndNoCommonPairPushesSkinIntoThem) {
     pair("mouthStretchLeft", "mouthStretchRight");
     pair("mouthSmileLeft", "mouthUpperUpLeft");
     pair("mouthPucker", "mouthFunnel");
+}
+
+/// z at which the line through (x, y) along the view leaves the triangle's plane, where it meets the triangle.
+std::optional<double> met_at(const Vec3& a, const Vec3& b, const Vec3& c, double x, double y) {
+    const double twice = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (std::abs(twice) < 1e-12) return std::nullopt;
+    const double u = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / twice;
+    const double v = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / twice;
+    if (u < 0 || v < 0 || u + v > 1) return std::nullopt;
+    return a.z + u * (b.z - a.z) + v * (c.z - a.z);
+}
+
+TEST(Mouth, ItsLiningStaysBehindTheSkinBelowTheLip) {
+    const Head& head = bare().head;
+    const MeshPart& skin = bare().parts.meshes[0];
+    const std::vector<std::vector<const char*>> poses = {{},
+                                                         {"mouthSmileLeft", "mouthSmileRight"},
+                                                         {"mouthFrownLeft", "mouthFrownRight"},
+                                                         {"mouthStretchLeft", "mouthStretchRight"},
+                                                         {"mouthSmileLeft", "mouthSmileRight", "jawOpen"},
+                                                         {"jawOpen"}};
+    for (const std::vector<const char*>& pose : poses) {
+        std::vector<Vec3> p = head.mesh.positions;
+        for (const char* name : pose) {
+            const ShapeTarget& t = target(skin, name);
+            for (Index v = 0; v < p.size(); ++v) p[v] += t.position_deltas[v];
+        }
+        double nearest = 100;
+        for (Index v = 0; v < p.size(); ++v) {
+            const Vec3& at = p[v];
+            // The front of the vestibule, 6 mm and more below the line of the lips.
+            const Vec3& rest = head.mesh.positions[v];
+            if (head.tags[v].part != Part::mouth_lining || std::abs(rest.x) > 15 || rest.z < 70 ||
+                rest.y > landmark::stomion_y - 6)
+                continue;
+            double front = -1000;
+            for (const Triangle& t : head.mesh.triangles) {
+                const auto is_lining = [&](Index corner) { return head.tags[corner].part == Part::mouth_lining; };
+                if (std::ranges::any_of(t, is_lining) || std::abs(p[t[0]].y - at.y) > 12) continue;
+                if (const auto z = met_at(p[t[0]], p[t[1]], p[t[2]], at.x, at.y)) front = std::max(front, *z);
+            }
+            nearest = std::min(nearest, front - at.z);
+        }
+        std::printf("  %s: %.2f mm behind the skin\n", pose.empty() ? "rest" : pose.front(), nearest);
+        EXPECT_GT(nearest, 0.2) << (pose.empty() ? "rest" : pose.front());
+    }
 }
 
 /// The place in the default head's space that a person's place comes from: fixed-point steps, since the map is near

@@ -266,7 +266,9 @@ private:
                 return Vec3(half_width * std::sin(angle), edge.y, 46 + (front - 46) * std::cos(angle));
             };
             const auto raised = [&](const Vec3& p, double height) { return p + Vec3(0, side * height * open, 0); };
-            const Vec3 wall = arch(35, 87.2);
+            // Below, it stays behind the fold between lip and chin, which a smile and the open jaw draw back.
+            const double behind_fold = side < 0 ? 1 : 0;
+            const Vec3 wall = arch(35, 87.2 - 4.6 * behind_fold);
             switch (knot) {
                 case 0:
                     return edge;
@@ -279,9 +281,9 @@ private:
                 case 4:
                     return raised(wall, 8.5);
                 case 5:
-                    return raised(wall + Vec3(0, 0, 0.4), 13);
+                    return raised(wall + Vec3(0, 0, 0.4 - behind_fold), 13);
                 case 6:
-                    return raised(arch(33, 84), 16.5);
+                    return raised(arch(33, 84 - 4 * behind_fold), 16.5);
                 case 7:
                     return raised(arch(26, 76), 18);
                 case 8:

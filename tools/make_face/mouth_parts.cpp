@@ -108,7 +108,9 @@ Mesh make_teeth(Jaw jaw) {
 namespace {
 /// Where the ray from the arch's middle through p meets its ellipse, as a factor on p's way; 1 and less outside.
 double way_to_front(const Arch& arch, const Vec3& p, double clearance_mm) {
-    const Vec2 radii(arch.half_width + clearance_mm, arch.front_z - arch_rear_z + clearance_mm);
+    // Beyond the teeth's roots gum and bone draw back by half of what they go on: make_gum().
+    const double room = clearance_mm - std::max(0.0, 0.5 * (p.y - arch.root_y) * arch.upward);
+    const Vec2 radii(arch.half_width + room, arch.front_z - arch_rear_z + room);
     const double reach = glm::length(Vec2(p.x, p.z - arch_rear_z) / radii);
     const double gum_end = arch.root_y + arch.upward * 6;
     const bool level = (p.y - arch.edge_y) * arch.upward > 0 && (gum_end - p.y) * arch.upward > 0;
