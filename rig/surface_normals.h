@@ -45,9 +45,9 @@ glm::vec3 angle_weighted_normal(const NormalTopology& topology, std::span<const 
                                 std::uint32_t vertex);
 
 /// The rest normal turned by the rotation that takes `rest_sum` to `deformed_sum` (neither need be normalised).
-/// Where either is shorter than 0.001 radians (a fan without area, or one whose triangles face each other, as those of a
-/// card with both sides do), the rest normal itself.
-/// Half a turn has no shortest arc: beyond 179.9 degrees the normal of the deformed surface is taken.
+/// Where either is shorter than 0.001 radians (a fan without area, or one whose triangles face each other, as those of
+/// a card with both sides do), the rest normal itself. Half a turn has no shortest arc: beyond 179.9 degrees the normal
+/// of the deformed surface is taken.
 glm::vec3 turned_normal(glm::vec3 rest_normal, glm::vec3 rest_sum, glm::vec3 deformed_sum);
 
 /// v / |v|, or `fallback` where |v|^2 is not between 1e-30 and 1e37 (no direction, or about to overflow).
