@@ -282,8 +282,10 @@ void main() {
         // Strands hide a part of the light from each other and send most of it on.
         radiance *= mix(0.3, 1.0, lit_share(light, map, vertex_normal, l, vague));
 #elif defined(MOUTH)
-        // Wet lips and enamel hand light on: in the shadow of a lip teeth are half as bright, not black.
-        radiance *= mix(0.5, 1.0, lit_share(light, map, vertex_normal, l, vague));
+        // Wet lips and enamel hand light on: in the shadow of a lip teeth are half as bright, not black. Light from behind
+        // has the head before it, and none of it gets there.
+        radiance *= mix(0.5 * smoothstep(0.0, 0.5, dot(l, mouth_forward.xyz)), 1.0,
+                        lit_share(light, map, vertex_normal, l, vague));
 #else
         radiance *= lit_share(light, map, vertex_normal, l, vague);
 #endif
