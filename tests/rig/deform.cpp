@@ -278,6 +278,20 @@ TEST(DegenerateFans, WithoutAreaAtRestTheyKeepTheRestNormal) {
     EXPECT_TRUE(same_bits(surface.normals, face.normals));
 }
 
+// Cards of hair have triangles for both sides at the same vertices.
+TEST(DegenerateFans, OfBothSidesKeepTheRestNormal) {
+    Face face = make_face({.targets = 0});
+    const std::vector<std::uint32_t> front = face.indices;
+    for (std::size_t i = 0; i < front.size(); i += 3) {
+        face.indices.insert(face.indices.end(), {front[i], front[i + 2], front[i + 1]});
+    }
+    face.primitives[0].index_count = static_cast<std::uint32_t>(face.indices.size());
+    move_all(face, [](glm::vec3 p) { return glm::vec3(p.x + 0.3F * p.y, 1.1F * p.y, p.z - 0.4F * p.x); });
+    const DeformedSurface surface = deformed(face, {1}, NormalMethod::authored);
+    expect_sound(surface);
+    EXPECT_TRUE(same_bits(surface.normals, face.normals));
+}
+
 TEST(DegenerateFans, OfVerticesThatNoTriangleUsesKeepTheRestNormal) {
     Face face = make_face({.targets = 1});
     face.primitives[0].index_count = 0;
