@@ -1,8 +1,8 @@
-# cmake -DOUTPUT=file.cpp -DFILES=a;b -P embed_shaders.cmake
+# cmake -DOUTPUT=file.cpp -DROOT=shaders -DFILES=a;b -P embed_shaders.cmake
 # A string literal may not be longer than 64 KiB in all compilers, so a file that grows past it must be split.
 set(entries "")
 foreach(file IN LISTS FILES)
-  get_filename_component(name ${file} NAME)
+  file(RELATIVE_PATH name ${ROOT} ${file})
   file(READ ${file} text)
   string(LENGTH "${text}" length)
   if(length GREATER 60000)

@@ -1,6 +1,6 @@
 # What an engine may include: installed by cmake/install.cmake, compiled one by one by tests/headers/.
-file(GLOB BLUSH_PUBLIC_HEADERS CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/rig/*.h)
-foreach(header appearance_file camera character device effect_settings face_appearance face_file frame_report import_head lighting lighting_file occlusion_file offscreen output_file performance_file picture_file rig_description_file view wrinkle_file)
+file(GLOB_RECURSE BLUSH_PUBLIC_HEADERS CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/rig/*.h)
+foreach(header camera character device frame_report lighting offscreen settings view files/appearance_file files/face_appearance files/face_file files/import/import_head files/lighting_file files/occlusion_file files/output_file files/performance/performance_file files/picture_file files/rig_description_file files/wrinkle_file)
   list(APPEND BLUSH_PUBLIC_HEADERS runtime/${header}.h)
 endforeach()
 foreach(header performer sandbox script)

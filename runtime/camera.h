@@ -3,8 +3,8 @@
 
 #include <glm/glm.hpp>
 
-#include "rig/face_scale.h"
-#include "rig/head_and_eyes.h"
+#include "rig/controls/head_and_eyes.h"
+#include "rig/head/face_scale.h"
 #include "runtime/view.h"
 
 namespace blush {

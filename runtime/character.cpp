@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cassert>
 
-#include "runtime/appearance_gpu.h"
-#include "runtime/character_state.h"
-#include "runtime/face_file.h"
-#include "runtime/frame.h"
+#include "runtime/appearance/appearance_gpu.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/occlusion_file.h"
+#include "runtime/files/rig_description_file.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame.h"
 #include "runtime/gl/state_guard.h"
-#include "runtime/occlusion_file.h"
-#include "runtime/occlusion_gpu.h"
-#include "runtime/rig_description_file.h"
+#include "runtime/light/occlusion_gpu.h"
 
 namespace blush {
 namespace {
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> targets_that_move(const Face& face, Wanted wanted) {
 }
 
 Status build_programs(CharacterState& state) {
-    Result<gl::Program> tone = gl::make_program({"screen.vert", "tone.frag"});
+    Result<gl::Program> tone = gl::make_program({"screen.vert", "camera/tone.frag"});
     if (!tone) return tone.error();
     state.tone_program = *std::move(tone);
     state.scene_framebuffer = gl::make_framebuffer();

@@ -7,16 +7,16 @@
 #include <span>
 #include <string_view>
 
-#include "rig/blood_flow.h"
+#include "rig/controls/rig.h"
 #include "rig/face.h"
-#include "rig/occlusion.h"
+#include "rig/light/occlusion.h"
+#include "rig/motion/blood_flow.h"
 #include "rig/result.h"
-#include "rig/rig.h"
 #include "runtime/camera.h"
 #include "runtime/device.h"
-#include "runtime/effect_settings.h"
-#include "runtime/face_appearance.h"
+#include "runtime/files/face_appearance.h"
 #include "runtime/frame_report.h"
+#include "runtime/settings.h"
 #include "runtime/view.h"
 
 namespace blush {
@@ -25,8 +25,8 @@ struct CharacterState;
 
 class Character {
 public:
-    /// Loads a face file (runtime/face_file.h) onto the device, with the rig description beside it where there is one
-    /// (runtime/rig_description_file.h).
+    /// Loads a face file (runtime/files/face_file.h) onto the device, with the rig description beside it where there is
+    /// one (runtime/files/rig_description_file.h).
     static Result<Character> load(const Device& device, const std::filesystem::path& path);
     /// The same from a face in memory, which must satisfy validate(), and a description, which must satisfy check();
     /// without one, that of its target names.
@@ -49,17 +49,17 @@ public:
     /// The pose that node animations write to; its weights and angles come from the controls at the next draw.
     Pose& pose();
 
-    /// Lets slow blood (rig/blood_flow.h) say where the blood is instead of the pose; null: the pose again. It must
-    /// outlive its use here.
+    /// Lets slow blood (rig/motion/blood_flow.h) say where the blood is instead of the pose; null: the pose again. It
+    /// must outlive its use here.
     void follow_blood(const BloodFlow* blood);
 
     /// Status: no such effect, setting or choice.
     Status set(std::string_view setting, std::string_view choice);
 
-    /// The maps of its wrinkles and its blood. load() finds them beside the file (runtime/face_appearance.h).
+    /// The maps of its wrinkles and its blood. load() finds them beside the file (runtime/files/face_appearance.h).
     void set_appearance(FaceAppearance appearance);
     /// How the face hides ambient light from itself: one transfer a vertex of this face in each pose; nothing: it hides
-    /// none. load() finds the file beside the face's (runtime/occlusion_file.h).
+    /// none. load() finds the file beside the face's (runtime/files/occlusion_file.h).
     void set_occlusion(std::optional<OcclusionSet> occlusion);
 
     /// A camera that frames the head at rest, and of a bust what lies close to it. aspect: width / height.

@@ -55,7 +55,7 @@ Status read_info(DeviceInfo& info) {
     info.version = gl_string(GL_VERSION);
     GLint vertex_blocks = 0;
     glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &vertex_blocks);
-    constexpr GLint needed_blocks = 6;  // shaders/deform.vert
+    constexpr GLint needed_blocks = 6;  // shaders/deform/deform.vert
     if (vertex_blocks < needed_blocks) {
         return Error{info.renderer + " offers " + std::to_string(vertex_blocks) +
                      " storage blocks to a vertex shader; the deformation needs " + std::to_string(needed_blocks)};

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rig/blend_shapes.h"
+#include "rig/deform/blend_shapes.h"
 
 namespace blush {
 

@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "rig/face.h"
-#include "rig/spherical_harmonics.h"
+#include "rig/light/spherical_harmonics.h"
 
 namespace blush {
 
@@ -35,7 +35,7 @@ struct LightSource {
     float size = 0;
 };
 
-/// A radiance map in equal longitudes and latitudes (rig/spherical_harmonics.h), prepared once.
+/// A radiance map in equal longitudes and latitudes (rig/light/spherical_harmonics.h), prepared once.
 struct Environment {
     Sh9Color radiance_sh{};  ///< of the map
     /// The map filtered for mirrors of roughness 0 to 1 in equal steps, rgb; level k is 2^k times smaller.

@@ -7,7 +7,7 @@
 namespace blush {
 
 struct EmbeddedShader {
-    std::string_view name;  ///< file name, such as "deform.vert"
+    std::string_view name;  ///< file name, such as "deform/deform.vert"
     std::string_view text;
 };
 

@@ -6,7 +6,7 @@
 #define BLUSH_MOST_LIGHTS 8
 // Taps of the separable diffusion kernel without its centre, at most.
 #define BLUSH_MOST_KERNEL_TAPS 32
-// Of the skin, at any depth: keeps a camera inside the skin finite. rig/scatter_image.h has the same.
+// Of the skin, at any depth: keeps a camera inside the skin finite. rig/light/scatter_image.h has the same.
 #define BLUSH_MOST_PIXELS_A_MM 4096.0
 // Sides of the tables of the skin's surface reflection.
 #define BLUSH_BECKMANN_TABLE_SIDE 128

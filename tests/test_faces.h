@@ -9,8 +9,8 @@
 
 #include <glm/glm.hpp>
 
+#include "rig/deform/rest_frame.h"
 #include "rig/face.h"
-#include "rig/rest_frame.h"
 
 namespace blush::test {
 

@@ -4,7 +4,7 @@
 ///
 /// The filter itself reads areas at every whole distance. The published layout, which other programs' shaders expect,
 /// holds distances 0, 1, 4, 9, ... of orthogonal lines and is read by interpolating at their square root: smaller, but
-/// up to 0.10 of a pixel off the areas (tests/rig/smaa_tables.cpp), so it is only written, by
+/// up to 0.10 of a pixel off the areas (tests/rig/antialias/smaa_tables.cpp), so it is only written, by
 /// `blush bake smaa-tables`.
 
 #include <array>

@@ -68,20 +68,21 @@ Result<AntialiasPasses> AntialiasPasses::create() {
     Status status = Done{};
     for (std::size_t on = 0; on < 2; ++on) {
         for (std::size_t source = 0; status && source < sources.size(); ++source) {
-            status = compile(made.edges_[source][on], "screen.vert", "antialias_edges.frag",
+            status = compile(made.edges_[source][on], "screen.vert", "antialias/antialias_edges.frag",
                              {sources[source], on != 0 ? "PREDICATED" : ""});
         }
         for (std::size_t straight = 0; status && straight < 2; ++straight) {
-            status = compile(made.blend_[on][straight], "antialias_tiles.vert", "antialias_blend.frag",
-                             {on != 0 ? "DECODE_SRGB" : "", straight != 0 ? "STRAIGHT_ALPHA" : ""});
+            status =
+                compile(made.blend_[on][straight], "antialias/antialias_tiles.vert", "antialias/antialias_blend.frag",
+                        {on != 0 ? "DECODE_SRGB" : "", straight != 0 ? "STRAIGHT_ALPHA" : ""});
         }
         if (status)
-            status = compile(made.smaa_weights_[on], "antialias_tiles.vert", "smaa_weights.frag",
+            status = compile(made.smaa_weights_[on], "antialias/antialias_tiles.vert", "antialias/smaa_weights.frag",
                              {on != 0 ? "DIAGONALS" : ""});
     }
-    if (status) status = compile(made.mlaa_weights_, "antialias_tiles.vert", "mlaa_weights.frag");
+    if (status) status = compile(made.mlaa_weights_, "antialias/antialias_tiles.vert", "antialias/mlaa_weights.frag");
     if (!status) return status.error();
-    Result<gl::Program> list_tiles = gl::make_program({.compute = "antialias_tiles.comp"});
+    Result<gl::Program> list_tiles = gl::make_program({.compute = "antialias/antialias_tiles.comp"});
     if (!list_tiles) return list_tiles.error();
     made.list_tiles_ = *std::move(list_tiles);
     made.orthogonal_areas_ = upload(smaa_areas().orthogonal);

@@ -1,6 +1,6 @@
 #pragma once
-/// The tiles of a picture that have an edge in or beside them, listed on the GPU (shaders/antialias_tiles.glsl), so
-/// that the passes behind it need not be drawn over the rest.
+/// The tiles of a picture that have an edge in or beside them, listed on the GPU
+/// (shaders/antialias/antialias_tiles.glsl), so that the passes behind it need not be drawn over the rest.
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "runtime/antialias/pictures.h"
-#include "runtime/character_state.h"
+#include "runtime/frame/character_state.h"
 #include "runtime/gl/texture_pool.h"
 
 namespace blush {

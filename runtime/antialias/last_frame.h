@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "rig/blend_shapes.h"
+#include "rig/deform/blend_shapes.h"
 #include "runtime/antialias/sampling.h"
-#include "runtime/frame_graph.h"
+#include "runtime/frame/frame_graph.h"
 #include "runtime/gl/object.h"
 #include "runtime/view.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Where the pictures of one frame wait for one another. A frame of one picture keeps nothing here.
 
-#include "runtime/character_state.h"
+#include "runtime/frame/character_state.h"
 
 namespace blush {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "runtime/effect.h"
+#include "runtime/frame/effect.h"
 
 namespace blush {
 namespace {

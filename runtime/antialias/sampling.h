@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "runtime/effect_settings.h"
+#include "runtime/settings.h"
 #include "runtime/view.h"
 
 namespace blush {

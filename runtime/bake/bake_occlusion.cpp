@@ -8,8 +8,8 @@
 #include <limits>
 #include <memory>
 
-#include "rig/deform.h"
-#include "rig/head_and_eyes.h"
+#include "rig/controls/head_and_eyes.h"
+#include "rig/deform/deform.h"
 #include "rig/names.h"
 
 namespace blush {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rig/occlusion.h"
+#include "rig/light/occlusion.h"
 #include "rig/result.h"
 
 namespace blush {

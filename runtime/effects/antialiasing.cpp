@@ -12,9 +12,9 @@
 #include "runtime/antialias/antialias_passes.h"
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
-#include "runtime/effects/antialiasing_study.h"
-#include "runtime/frame.h"
-#include "runtime/on_screen.h"
+#include "runtime/frame/frame.h"
+#include "runtime/frame/on_screen.h"
+#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {

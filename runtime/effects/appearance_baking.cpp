@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 
-#include "rig/appearance.h"
-#include "rig/colour_difference.h"
-#include "rig/hemoglobin.h"
-#include "rig/skin_colour_table.h"
-#include "runtime/appearance_file.h"
+#include "rig/blood/appearance.h"
+#include "rig/blood/colour_difference.h"
+#include "rig/blood/hemoglobin.h"
+#include "rig/blood/skin_colour_table.h"
 #include "runtime/effects/baker.h"
+#include "runtime/files/appearance_file.h"
 
 namespace blush {
 namespace {

@@ -2,8 +2,8 @@
 /// What bakers have in common: effects whose work is done before any frame, by `blush bake`. They are registered for
 /// their settings, studies and hard cases, and never take part in a frame.
 
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
 
 namespace blush {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "runtime/appearance_gpu.h"
-#include "runtime/appearance_probe.h"
-#include "runtime/effects/appearance_frames.h"
-#include "runtime/frame.h"
+#include "runtime/appearance/appearance_gpu.h"
+#include "runtime/frame/frame.h"
+#include "runtime/measure/appearance_frames.h"
+#include "runtime/measure/appearance_probe.h"
 
 namespace blush {
 namespace {

@@ -1,12 +1,12 @@
 /// Bloom: bright light spreads a little over the whole picture, as in a lens and in an eye (jimenez-2012, 8.3, has it
 /// among the effects of the camera).
 
-#include "rig/bloom.h"
+#include "rig/camera/bloom.h"
 
 #include <array>
 
-#include "runtime/effects/camera_studies.h"
-#include "runtime/frame.h"
+#include "runtime/frame/frame.h"
+#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -77,10 +77,10 @@ void add(CharacterState& state, const FrameGraph& graph) {
 void declare(CharacterState& state) {
     Bloom& own = state.own<Bloom>();
     static constexpr std::array<std::string_view, 1> first_defines = {"FIRST"};
-    gl::require_program(own.first, {"screen.vert", "bloom_down.frag", first_defines});
-    gl::require_program(own.down, {"screen.vert", "bloom_down.frag"});
-    gl::require_program(own.up, {"screen.vert", "bloom_up.frag"});
-    gl::require_program(own.add, {"screen.vert", "bloom_add.frag"});
+    gl::require_program(own.first, {"screen.vert", "camera/bloom_down.frag", first_defines});
+    gl::require_program(own.down, {"screen.vert", "camera/bloom_down.frag"});
+    gl::require_program(own.up, {"screen.vert", "camera/bloom_up.frag"});
+    gl::require_program(own.add, {"screen.vert", "camera/bloom_add.frag"});
 
     const TextureShape full{PixelFormat::rgba16f, state.view->width, state.view->height, 1};
     TextureShape shape = full;

@@ -3,10 +3,10 @@
 #include <array>
 #include <cstdio>
 
-#include "rig/deform.h"
-#include "runtime/effects/errors.h"
-#include "runtime/effects/study_scene.h"
-#include "runtime/frame.h"
+#include "rig/deform/deform.h"
+#include "runtime/frame/frame.h"
+#include "runtime/measure/errors.h"
+#include "runtime/measure/study_scene.h"
 
 namespace blush {
 namespace {
@@ -56,7 +56,7 @@ Study study_of(const Device& device, const Face& face, double millimetres_a_unit
     std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
     Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
                     std::to_string(face.positions.size()) + " vertices",
-                "the sum in double precision on the CPU (rig/deform_exact.h)",
+                "the sum in double precision on the CPU (rig/deform/deform_exact.h)",
                 "mm",
                 {},
                 scene};

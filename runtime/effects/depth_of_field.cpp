@@ -1,14 +1,14 @@
 /// Depth of field: what is out of focus is blurred by its circle of confusion, as a thin lens of real size makes it.
 
-#include "rig/depth_of_field.h"
+#include "rig/camera/depth_of_field.h"
 
 #include <array>
 #include <cmath>
 
-#include "rig/material_kind.h"
-#include "runtime/effects/camera_studies.h"
-#include "runtime/frame.h"
+#include "rig/head/material_kind.h"
+#include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -139,10 +139,10 @@ void gather(CharacterState& state, const FrameGraph& graph) {
 void declare(CharacterState& state) {
     DepthOfField& own = state.own<DepthOfField>();
     static constexpr std::array<std::string_view, 1> multisampled = {"MULTISAMPLED"};
-    gl::require_program(own.circles, {"screen.vert", "circle_of_confusion.frag"});
-    gl::require_program(own.circles_multisampled, {"screen.vert", "circle_of_confusion.frag", multisampled});
-    gl::require_program(own.tiles, {"screen.vert", "blur_tiles.frag"});
-    gl::require_program(own.gather, {"screen.vert", "depth_of_field.frag"});
+    gl::require_program(own.circles, {"screen.vert", "camera/circle_of_confusion.frag"});
+    gl::require_program(own.circles_multisampled, {"screen.vert", "camera/circle_of_confusion.frag", multisampled});
+    gl::require_program(own.tiles, {"screen.vert", "camera/blur_tiles.frag"});
+    gl::require_program(own.gather, {"screen.vert", "camera/depth_of_field.frag"});
     own.blur = find_blur(state);
     // A circle reaches the tiles beside its own at most.
     constexpr double least_tile = 8;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "rig/skin_reflectance.h"
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
-#include "runtime/effects/sphere_study.h"
+#include "rig/light/skin_reflectance.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
+#include "runtime/measure/sphere_study.h"
 
 namespace blush {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "runtime/effects/camera_studies.h"
-#include "runtime/frame.h"
+#include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
+#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -96,8 +96,8 @@ void declare(CharacterState& state) {
             texture = gl::make_texture(GL_TEXTURE_2D);
             glTextureStorage2D(texture.name(), 1, GL_R32F, 1, 1);
         }
-        gl::require_program(own.cells_program, {"screen.vert", "exposure_cells.frag"});
-        gl::require_program(own.adapt_program, {"screen.vert", "exposure_adapt.frag"});
+        gl::require_program(own.cells_program, {"screen.vert", "camera/exposure_cells.frag"});
+        gl::require_program(own.adapt_program, {"screen.vert", "camera/exposure_adapt.frag"});
         const double passed = view.time_seconds - own.seen_seconds;
         own.passed_seconds = own.known && !view.cut && passed > 0 ? passed : -1;
         own.known = true;

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "runtime/effects/camera_studies.h"
-#include "runtime/frame.h"
+#include "runtime/frame/frame.h"
+#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -34,7 +34,7 @@ Need need(const CharacterState& state) {
 }
 
 void declare(CharacterState& state) {
-    gl::require_program(state.own<FilmGrain>().program, {"screen.vert", "film_grain.frag"});
+    gl::require_program(state.own<FilmGrain>().program, {"screen.vert", "camera/film_grain.frag"});
     const DisplayImages images = next_display(state);
     const auto pass = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
         bind_output(state, graph, to);

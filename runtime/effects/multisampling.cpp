@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "runtime/effects/antialiasing_study.h"
-#include "runtime/frame.h"
-#include "runtime/on_screen.h"
+#include "runtime/frame/frame.h"
+#include "runtime/frame/on_screen.h"
+#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -69,7 +69,7 @@ void declare_one(CharacterState& state, ResourceId from, ResourceId to) {
 
 void declare(CharacterState& state) {
     Multisampling& own = state.own<Multisampling>();
-    if (resolve_of(state) == Resolve::hdr) gl::require_program(own.program, {"screen.vert", "resolve.frag"});
+    if (resolve_of(state) == Resolve::hdr) gl::require_program(own.program, {"screen.vert", "antialias/resolve.frag"});
     const FrameResources& resources = state.resources;
     for (std::size_t i = 0; i < resources.resolve_count; ++i) {
         declare_one(state, resources.to_resolve[i].from, resources.to_resolve[i].to);

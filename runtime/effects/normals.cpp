@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "runtime/effects/errors.h"
-#include "runtime/effects/study_scene.h"
-#include "runtime/frame.h"
+#include "runtime/frame/frame.h"
+#include "runtime/measure/errors.h"
+#include "runtime/measure/study_scene.h"
 
 namespace blush {
 namespace {
@@ -48,7 +48,7 @@ Study study_of(const Device& device, const Face& face, std::size_t active) {
     std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
     Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
                     std::to_string(face.positions.size()) + " vertices",
-                "normals recomputed on the deformed mesh in double precision (rig/deform_exact.h)",
+                "normals recomputed on the deformed mesh in double precision (rig/deform/deform_exact.h)",
                 "degrees",
                 {},
                 scene};

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
-#include "runtime/effects/frame_study.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
+#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {

@@ -1,5 +1,5 @@
 /// Eyes, the inside of the mouth, and hair: each with a shading of its own, simpler than the skin's. Shading does it
-/// (shaders/parts.glsl). None of them gives light to the skin's diffusion or takes any from it.
+/// (shaders/draw/parts.glsl). None of them gives light to the skin's diffusion or takes any from it.
 
 #include "runtime/effects/parts.h"
 
@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "rig/eye_sockets.h"
-#include "runtime/effect.h"
-#include "runtime/effects/frame_study.h"
+#include "rig/head/eye_sockets.h"
+#include "runtime/frame/effect.h"
+#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "runtime/character_state.h"
+#include "runtime/frame/character_state.h"
 
 namespace blush {
 

@@ -2,15 +2,15 @@
 
 #include <array>
 
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
-#include "runtime/effects/frame_study.h"
-#include "runtime/effects/sphere_study.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
+#include "runtime/measure/frame_study.h"
+#include "runtime/measure/sphere_study.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "rig/skin_reflectance.h"
+#include "rig/light/skin_reflectance.h"
 
 namespace blush {
 namespace {
@@ -71,7 +71,7 @@ std::vector<Study> studies(const Device& device, const Face& face, double millim
     std::vector<Study> result =
         sphere_study(device, "a white sphere under one lamp",
                      "the reflectance computed in double precision without "
-                     "tables (rig/skin_reflectance.h)",
+                     "tables (rig/light/skin_reflectance.h)",
                      one_lamp(),
                      {{"reflection.model", "kelemen", true, [](glm::dvec3 n) { return exactly_reflected(n, 1); }},
                       {"reflection.intensity", "0", false, [](glm::dvec3 n) { return exactly_reflected(n, 0); }},

@@ -1,7 +1,7 @@
 #include <array>
 
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
 
 namespace blush {
 

@@ -5,9 +5,9 @@
 #include <array>
 
 #include "runtime/antialias/last_frame.h"
-#include "runtime/effects/antialiasing_study.h"
-#include "runtime/frame.h"
-#include "runtime/on_screen.h"
+#include "runtime/frame/frame.h"
+#include "runtime/frame/on_screen.h"
+#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -78,7 +78,7 @@ void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, 
 }
 
 void declare(CharacterState& state) {
-    gl::require_program(state.own<Reprojection>().program, {"screen.vert", "reproject.frag"});
+    gl::require_program(state.own<Reprojection>().program, {"screen.vert", "antialias/reproject.frag"});
     const DisplayImages images = next_display(state);
     const auto pass = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
         reproject(state, graph, from, to);

@@ -3,9 +3,9 @@
 #include <array>
 #include <cassert>
 
-#include "rig/separable_kernel.h"
+#include "rig/light/separable_kernel.h"
 #include "runtime/effects/scattering.h"
-#include "runtime/frame.h"
+#include "runtime/frame/frame.h"
 
 namespace blush {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<std::string_view, 5> method_choices = {"separable", "gaussians4", "gaussians6", "jittered", "off"};
 constexpr std::array<std::string_view, 4> sample_choices = {"9", "17", "25", "33"};
 constexpr std::array<std::string_view, 2> kernel_choices = {"preintegrated", "fitted"};
-// "skin", then measured_materials() of rig/diffusion_profile.h in its order.
+// "skin", then measured_materials() of rig/light/diffusion_profile.h in its order.
 constexpr std::array<std::string_view, 11> material_choices = {
     "skin", "marble", "skin1", "skin2", "wholemilk", "skimmilk", "potato", "apple", "ketchup", "cream", "chicken1"};
 constexpr std::array<std::string_view, 2> follow_choices = {"on", "off"};

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "rig/separable_kernel.h"
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
-#include "runtime/scatter_passes.h"
+#include "rig/light/separable_kernel.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
+#include "runtime/light/scatter_passes.h"
 
 namespace blush {
 

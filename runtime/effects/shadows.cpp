@@ -2,11 +2,11 @@
 
 #include <array>
 
-#include "runtime/draw_face.h"
-#include "runtime/effects/frame_study.h"
-#include "runtime/frame.h"
-#include "runtime/hair_core.h"
-#include "runtime/shadow_maps.h"
+#include "runtime/draw/draw_face.h"
+#include "runtime/draw/hair_core.h"
+#include "runtime/frame/frame.h"
+#include "runtime/light/shadow_maps.h"
+#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {
@@ -39,7 +39,7 @@ Need need(const CharacterState& state) {
 void ensure_maps(CharacterState& state, ShadowMaps& maps) {
     const std::uint32_t side = shadow_map_side(state), count = shadow_light_count(state);
     if (!maps.program) {
-        Result<gl::Program> program = gl::make_program({"shadow.vert"});
+        Result<gl::Program> program = gl::make_program({"light/shadow.vert"});
         assert(program && "shadow.vert does not compile");
         maps.program = *std::move(program);
         maps.framebuffer = gl::make_framebuffer();

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "rig/deform.h"
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
-#include "runtime/effects/errors.h"
-#include "runtime/frame.h"
+#include "rig/deform/deform.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
+#include "runtime/frame/frame.h"
+#include "runtime/measure/errors.h"
 
 namespace blush {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
-#include "runtime/effects/antialiasing_study.h"
-#include "runtime/frame.h"
-#include "runtime/on_screen.h"
+#include "runtime/frame/frame.h"
+#include "runtime/frame/on_screen.h"
+#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -47,7 +47,7 @@ void average(CharacterState& state, GLuint mean_so_far, GLuint picture, glm::bve
 }
 
 void declare(CharacterState& state) {
-    gl::require_program(state.own<Supersampling>().program, {"screen.vert", "average.frag"});
+    gl::require_program(state.own<Supersampling>().program, {"screen.vert", "antialias/average.frag"});
     const DisplayImages images = next_display(state);
     const auto mean = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
         const bool encoded = state.view->output == Output::display_srgb;

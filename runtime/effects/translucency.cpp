@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
-#include "runtime/effects/frame_study.h"
-#include "runtime/shadow_maps.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
+#include "runtime/light/shadow_maps.h"
+#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {

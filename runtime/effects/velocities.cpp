@@ -4,11 +4,11 @@
 #include <array>
 
 #include "runtime/antialias/last_frame.h"
-#include "runtime/draw_face.h"
-#include "runtime/effects/antialiasing_study.h"
-#include "runtime/frame.h"
+#include "runtime/draw/draw_face.h"
+#include "runtime/draw/hair_core.h"
+#include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/hair_core.h"
+#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -111,8 +111,8 @@ void draw(CharacterState& state, const FrameGraph& graph) {
 void declare(CharacterState& state) {
     Velocities& own = state.own<Velocities>();
     constexpr std::array<std::string_view, 1> alpha_test = {"ALPHA_TEST"};
-    gl::require_program(own.programs[0], {"velocities.vert", "velocities.frag"});
-    gl::require_program(own.programs[1], {"velocities.vert", "velocities.frag", alpha_test});
+    gl::require_program(own.programs[0], {"antialias/velocities.vert", "antialias/velocities.frag"});
+    gl::require_program(own.programs[1], {"antialias/velocities.vert", "antialias/velocities.frag", alpha_test});
     if (!own.framebuffer) own.framebuffer = gl::make_framebuffer();
     TextureShape shape{PixelFormat::rgba16f, state.view->width, state.view->height, 1};
     state.resources.velocities = state.graph.texture("velocities", shape);

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "rig/wrinkle_error.h"
+#include "rig/wrinkles/wrinkle_error.h"
 #include "runtime/effects/baker.h"
 
 namespace blush {
@@ -54,7 +54,7 @@ Variant variant_of(std::string label, std::string work, bool is_default, const W
 
 std::vector<Study> studies(const Device& /*device*/, const Face& /*face*/, double /*millimetres_a_unit*/, bool quick) {
     constexpr std::uint32_t base_side = 256;  // of the pores: the same for all variants
-    constexpr const char* reference = "a displaced patch of skin in double precision (rig/wrinkle_error.h)";
+    constexpr const char* reference = "a displaced patch of skin in double precision (rig/wrinkles/wrinkle_error.h)";
     Study sizes{"baked folds every 8 mm, 45 degrees steep, on 60 mm of skin", reference, "degrees", {}, nullptr};
     for (const std::uint32_t side : {64U, 128U, 256U, 512U}) {
         WrinkleErrorCase of;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 
-#include "rig/wrinkle_error.h"
-#include "runtime/appearance_gpu.h"
-#include "runtime/appearance_probe.h"
-#include "runtime/effect.h"
-#include "runtime/effects/appearance_frames.h"
+#include "rig/wrinkles/wrinkle_error.h"
+#include "runtime/appearance/appearance_gpu.h"
+#include "runtime/appearance/signed_texture.h"
+#include "runtime/frame/effect.h"
 #include "runtime/gl/state_guard.h"
-#include "runtime/signed_texture.h"
+#include "runtime/measure/appearance_frames.h"
+#include "runtime/measure/appearance_probe.h"
 
 namespace blush {
 namespace {
@@ -124,7 +124,7 @@ std::vector<Study> studies(const Device& device, const Face& face, double millim
     result.push_back(std::move(stored));
 
     Study combined{"normals of folds of 45 degrees on pores, at half weight, in 8 bits",
-                   "a displaced patch of skin in double precision (rig/wrinkle_error.h)",
+                   "a displaced patch of skin in double precision (rig/wrinkles/wrinkle_error.h)",
                    "degrees",
                    {},
                    probe};

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/frame_graph.h"
+#include "runtime/frame/frame_graph.h"
 #include "runtime/gl/object.h"
 
 namespace blush::gl {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "rig/ease.h"
+#include "rig/motion/ease.h"
 
 namespace blush {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "rig/performance.h"
+#include "rig/controls/rig.h"
+#include "rig/motion/performance.h"
 #include "rig/result.h"
-#include "rig/rig.h"
 
 namespace blush {
 

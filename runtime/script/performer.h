@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "rig/blood_flow.h"
-#include "rig/life.h"
-#include "rig/performance.h"
+#include "rig/controls/rig.h"
+#include "rig/motion/blood_flow.h"
+#include "rig/motion/life.h"
+#include "rig/motion/performance.h"
 #include "rig/result.h"
-#include "rig/rig.h"
 #include "runtime/script/script.h"
 
 namespace blush {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "rig/performance.h"
+#include "rig/controls/rig.h"
+#include "rig/motion/performance.h"
 #include "rig/result.h"
-#include "rig/rig.h"
 #include "runtime/script/sandbox.h"
 
 namespace blush {

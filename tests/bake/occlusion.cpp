@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rig/rest_frame.h"
+#include "rig/deform/rest_frame.h"
 #include "runtime/bake/bake_occlusion.h"
 #include "tests/test_faces.h"
 

@@ -23,9 +23,9 @@
 
 #include <epoxy/gl.h>
 
-#include "rig/canonical_face.h"
+#include "rig/head/canonical_face.h"
 #include "runtime/character.h"
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
 #include "runtime/offscreen.h"
 
 namespace {

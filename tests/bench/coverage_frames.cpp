@@ -6,7 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "rig/rest_frame.h"
+#include "rig/deform/rest_frame.h"
 
 namespace blush {
 namespace {

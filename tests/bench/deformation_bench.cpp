@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "runtime/character.h"
-#include "runtime/character_state.h"
-#include "runtime/frame.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame.h"
 
 namespace {
 

@@ -21,8 +21,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/character.h"
-#include "runtime/character_state.h"
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/frame/character_state.h"
 #include "runtime/offscreen.h"
 
 namespace {

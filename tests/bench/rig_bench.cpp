@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/rig/named_face.h"
+#include "tests/rig/controls/named_face.h"
 #include "tests/test_faces.h"
 
 namespace blush {

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "runtime/character.h"
-#include "runtime/face_file.h"
-#include "runtime/lighting_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/lighting_file.h"
 #include "runtime/offscreen.h"
 
 namespace {

@@ -32,7 +32,7 @@
 #include <Eigen/SparseCore>
 #pragma GCC diagnostic pop
 
-#include "rig/deform.h"
+#include "rig/deform/deform.h"
 #include "tests/bench/ict_head.h"
 #include "tests/shared_data.h"
 #include "tests/test_faces.h"

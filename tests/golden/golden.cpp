@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "runtime/load/image_file.h"
-#include "runtime/output_file.h"
+#include "runtime/files/image_file.h"
+#include "runtime/files/output_file.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {

@@ -1,4 +1,4 @@
-#include "runtime/appearance_file.h"
+#include "runtime/files/appearance_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "rig/colour_difference.h"
-#include "runtime/output_file.h"
+#include "rig/blood/colour_difference.h"
+#include "runtime/files/output_file.h"
 #include "tests/gltf_builder.h"
 #include "tests/shared_data.h"
 

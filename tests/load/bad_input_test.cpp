@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
 #include "tests/gltf_builder.h"
 
 namespace blush {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
 #include "tests/load/compressed_glb.h"
 
 namespace blush {

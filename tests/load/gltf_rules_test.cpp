@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
 #include "tests/load/compressed_glb.h"
 
 namespace blush {

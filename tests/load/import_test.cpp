@@ -10,11 +10,11 @@
 #include <set>
 #include <sstream>
 
-#include "runtime/face_file.h"
-#include "runtime/import_head.h"
-#include "runtime/load/bad_file.h"
-#include "runtime/load/file_tree.h"
-#include "runtime/load/glb_writer.h"
+#include "runtime/files/bad_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/gltf/glb_writer.h"
+#include "runtime/files/import/file_tree.h"
+#include "runtime/files/import/import_head.h"
 #include "tests/gltf_builder.h"
 #include "tests/shared_data.h"
 

@@ -1,6 +1,6 @@
 // Occlusion coefficients on disk: what is written is read, and what is damaged is named.
 
-#include "runtime/occlusion_file.h"
+#include "runtime/files/occlusion_file.h"
 
 #include <gtest/gtest.h>
 

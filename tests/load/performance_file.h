@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-#include "runtime/performance_file.h"
+#include "runtime/files/performance/performance_file.h"
 
 namespace blush::test {
 

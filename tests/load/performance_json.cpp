@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rig/curve.h"
+#include "rig/motion/curve.h"
 #include "rig/names.h"
 #include "tests/load/performance_file.h"
 

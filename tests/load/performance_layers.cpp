@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rig/curve.h"
-#include "rig/performance.h"
+#include "rig/motion/curve.h"
+#include "rig/motion/performance.h"
 #include "tests/load/performance_file.h"
 
 namespace blush {

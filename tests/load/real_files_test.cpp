@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
 #include "tests/shared_data.h"
 
 namespace blush {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "rig/deform.h"
-#include "rig/deform_exact.h"
-#include "runtime/face_file.h"
+#include "rig/deform/deform.h"
+#include "rig/deform/deform_exact.h"
+#include "runtime/files/face_file.h"
 #include "tests/shared_data.h"
 
 namespace blush {

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "runtime/rig_description_file.h"
+#include "runtime/files/rig_description_file.h"
 #include "tests/load/performance_file.h"
-#include "tests/rig/named_face.h"
+#include "tests/rig/controls/named_face.h"
 
 namespace blush {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "rig/performance.h"
-#include "runtime/face_file.h"
-#include "runtime/performance_file.h"
-#include "tests/rig/named_face.h"
+#include "rig/motion/performance.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/performance/performance_file.h"
+#include "tests/rig/controls/named_face.h"
 #include "tests/shared_data.h"
 
 namespace blush {

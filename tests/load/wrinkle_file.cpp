@@ -1,6 +1,6 @@
 // Wrinkle maps on disk: there and back, an artist's own, and what is refused.
 
-#include "runtime/wrinkle_file.h"
+#include "runtime/files/wrinkle_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/output_file.h"
+#include "runtime/files/output_file.h"
 #include "tests/gltf_builder.h"
 
 namespace blush {

@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "rig/names.h"
-#include "runtime/face_file.h"
-#include "runtime/import_head.h"
-#include "runtime/load/file_tree.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/import/file_tree.h"
+#include "runtime/files/import/import_head.h"
 #include "tests/gltf_builder.h"
 #include "tests/make_face/likeness.h"
 #include "tests/shared_data.h"

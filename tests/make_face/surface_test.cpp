@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rig/colour_difference.h"
-#include "runtime/appearance_file.h"
-#include "runtime/face_appearance.h"
-#include "runtime/face_file.h"
+#include "rig/blood/colour_difference.h"
+#include "runtime/files/appearance_file.h"
+#include "runtime/files/face_appearance.h"
+#include "runtime/files/face_file.h"
 #include "tools/make_face/brow_cards.h"
 #include "tools/make_face/build_face.h"
 #include "tools/make_face/expressions.h"

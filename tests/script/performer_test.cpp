@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "rig/names.h"
-#include "runtime/performance_file.h"
+#include "runtime/files/performance/performance_file.h"
 #include "runtime/script/lint_script.h"
 #include "tests/load/performance_file.h"
 #include "tests/script/script_run.h"

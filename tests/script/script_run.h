@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rig/controls/rig.h"
 #include "rig/face.h"
-#include "rig/rig.h"
 #include "runtime/script/script.h"
 
 namespace blush::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "runtime/effect.h"
+#include "runtime/frame/effect.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {

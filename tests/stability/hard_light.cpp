@@ -9,7 +9,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "runtime/effect.h"
+#include "runtime/frame/effect.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "rig/antialias/smaa_tables.h"
-#include "runtime/picture_file.h"
+#include "runtime/files/picture_file.h"
 #include "tests/tools/cli_run.h"
 
 namespace blush::test {

@@ -6,9 +6,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "runtime/accuracy.h"
-#include "runtime/face_file.h"
-#include "runtime/output_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/output_file.h"
+#include "runtime/measure/accuracy.h"
 #include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"
 

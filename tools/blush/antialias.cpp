@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "runtime/antialias/filter_picture.h"
-#include "runtime/picture_file.h"
+#include "runtime/files/picture_file.h"
 #include "tools/blush/options.h"
 
 namespace blush::tool {

@@ -4,11 +4,11 @@
 #include <iostream>
 #include <optional>
 
-#include "rig/appearance_transfer.h"
-#include "rig/skin_inversion.h"
-#include "runtime/appearance_file.h"
-#include "runtime/face_appearance.h"
-#include "runtime/face_file.h"
+#include "rig/blood/appearance_transfer.h"
+#include "rig/blood/skin_inversion.h"
+#include "runtime/files/appearance_file.h"
+#include "runtime/files/face_appearance.h"
+#include "runtime/files/face_file.h"
 #include "tools/blush/baker_options.h"
 #include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"

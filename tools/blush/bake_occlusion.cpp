@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "runtime/bake/bake_occlusion.h"
-#include "runtime/face_file.h"
-#include "runtime/occlusion_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/occlusion_file.h"
 #include "tools/blush/options.h"
 
 namespace blush::tool {

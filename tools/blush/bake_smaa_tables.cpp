@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "rig/antialias/smaa_tables.h"
-#include "runtime/picture_file.h"
+#include "runtime/files/picture_file.h"
 #include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"
 

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <iostream>
 
-#include "runtime/appearance_file.h"
-#include "runtime/face_file.h"
-#include "runtime/output_file.h"
-#include "runtime/wrinkle_bake.h"
+#include "runtime/files/appearance_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/output_file.h"
+#include "runtime/files/wrinkle_bake.h"
 #include "tools/blush/baker_options.h"
 #include "tools/blush/new_folder.h"
 #include "tools/blush/options.h"

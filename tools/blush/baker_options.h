@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "runtime/effect.h"
+#include "runtime/frame/effect.h"
 
 namespace blush::tool {
 

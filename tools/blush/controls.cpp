@@ -5,7 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
 #include "tools/blush/options.h"
 
 namespace blush::tool {

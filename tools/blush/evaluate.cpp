@@ -3,10 +3,10 @@
 #include <cmath>
 #include <iostream>
 
-#include "rig/deform.h"
-#include "rig/head_and_eyes.h"
-#include "runtime/face_file.h"
-#include "runtime/output_file.h"
+#include "rig/controls/head_and_eyes.h"
+#include "rig/deform/deform.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/output_file.h"
 #include "tools/blush/options.h"
 #include "tools/blush/performing.h"
 

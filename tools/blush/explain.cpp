@@ -4,8 +4,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "runtime/character_state.h"
-#include "runtime/effect.h"
+#include "runtime/frame/character_state.h"
+#include "runtime/frame/effect.h"
 #include "runtime/offscreen.h"
 #include "tools/blush/options.h"
 

@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "runtime/import_head.h"
-#include "runtime/output_file.h"
+#include "runtime/files/import/import_head.h"
+#include "runtime/files/output_file.h"
 #include "tools/blush/options.h"
 
 namespace blush::tool {

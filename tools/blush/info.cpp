@@ -4,8 +4,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "rig/face_scale.h"
-#include "runtime/face_file.h"
+#include "rig/head/face_scale.h"
+#include "runtime/files/face_file.h"
 #include "tools/blush/options.h"
 
 namespace blush::tool {

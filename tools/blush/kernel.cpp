@@ -5,7 +5,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "rig/diffusion_profile.h"
+#include "rig/light/diffusion_profile.h"
 #include "tools/blush/kernel_fit.h"
 #include "tools/blush/options.h"
 

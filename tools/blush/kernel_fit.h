@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "rig/separable_kernel.h"
+#include "rig/light/separable_kernel.h"
 
 namespace blush::tool {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "rig/controls/rig_description.h"
 #include "rig/face.h"
 #include "rig/result.h"
-#include "rig/rig_description.h"
 
 namespace blush::tool {
 

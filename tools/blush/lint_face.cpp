@@ -5,11 +5,11 @@
 #include <set>
 #include <unordered_map>
 
-#include "rig/head_and_eyes.h"
+#include "rig/controls/head_and_eyes.h"
+#include "rig/controls/rig.h"
 #include "rig/names.h"
-#include "rig/rig.h"
-#include "runtime/face_file.h"
-#include "runtime/rig_description_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/rig_description_file.h"
 #include "tools/blush/lint.h"
 
 namespace blush::tool {

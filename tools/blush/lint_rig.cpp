@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "rig/control_table.h"
+#include "rig/controls/control_table.h"
 #include "rig/names.h"
-#include "runtime/face_file.h"
-#include "runtime/rig_description_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/rig_description_file.h"
 #include "tools/blush/lint.h"
 #include "tools/blush/options.h"
 

@@ -2,7 +2,7 @@
 
 #include "runtime/script/lint_script.h"
 #include "rig/names.h"
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
 #include "tools/blush/lint.h"
 #include "tools/blush/options.h"
 #include "tools/blush/performing.h"

@@ -8,11 +8,11 @@
 #include <memory>
 
 #include "rig/names.h"
-#include "runtime/character_state.h"
-#include "runtime/face_file.h"
-#include "runtime/lighting_file.h"
-#include "runtime/occlusion_file.h"
-#include "runtime/rig_description_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/lighting_file.h"
+#include "runtime/files/occlusion_file.h"
+#include "runtime/files/rig_description_file.h"
+#include "runtime/frame/character_state.h"
 
 namespace blush::tool {
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "runtime/performance_file.h"
+#include "runtime/files/performance/performance_file.h"
 #include "tools/blush/playback.h"
 
 namespace blush::tool {

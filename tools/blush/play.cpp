@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <iostream>
 
+#include "runtime/files/output_file.h"
 #include "runtime/offscreen.h"
-#include "runtime/output_file.h"
 #include "tools/blush/captions.h"
 #include "tools/blush/interrupt.h"
 #include "tools/blush/new_folder.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "runtime/performance_file.h"
+#include "runtime/files/performance/performance_file.h"
 #include "tools/blush/options.h"
 
 namespace blush::tool {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "rig/performance.h"
+#include "rig/motion/performance.h"
 #include "runtime/character.h"
 
 namespace blush::tool {

@@ -2,8 +2,8 @@
 
 #include <iostream>
 
+#include "runtime/files/output_file.h"
 #include "runtime/offscreen.h"
-#include "runtime/output_file.h"
 #include "tools/blush/options.h"
 #include "tools/blush/performing.h"
 

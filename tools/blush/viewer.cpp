@@ -10,9 +10,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/output_file.h"
 #include "runtime/offscreen.h"
-#include "runtime/output_file.h"
 #include "tools/blush/playback.h"
 #include "tools/blush/viewer_panel.h"
 #include "tools/blush/viewer_window.h"

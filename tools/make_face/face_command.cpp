@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "runtime/face_appearance.h"
+#include "runtime/files/face_appearance.h"
 #include "tools/make_face/head_mesh.h"
 #include "tools/make_face/write_maps.h"
 

@@ -3,10 +3,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "rig/blood/skin_colour.h"
 #include "rig/names.h"
-#include "rig/skin_colour.h"
-#include "runtime/load/bad_file.h"
-#include "runtime/load/json_text.h"
+#include "runtime/files/bad_file.h"
+#include "runtime/files/json_text.h"
 
 namespace blush::make_face {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "rig/colour_difference.h"
-#include "runtime/load/image_file.h"
+#include "rig/blood/colour_difference.h"
+#include "runtime/files/image_file.h"
 #include "tools/make_face/geometry.h"
 
 namespace blush::make_face {

@@ -1,6 +1,6 @@
 #include "tools/make_face/pigments.h"
 
-#include "rig/colour_difference.h"
+#include "rig/blood/colour_difference.h"
 #include "tools/make_face/brow_cards.h"
 #include "tools/make_face/cells.h"
 #include "tools/make_face/hair.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// The skin's melanin and hemoglobin, painted as such; its colour follows from them.
 
-#include "rig/appearance.h"
+#include "rig/blood/appearance.h"
 #include "tools/make_face/person.h"
 #include "tools/make_face/picture.h"
 #include "tools/make_face/surface_texels.h"

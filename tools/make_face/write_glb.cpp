@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "runtime/load/glb_writer.h"
+#include "runtime/files/gltf/glb_writer.h"
 
 namespace blush::make_face {
 namespace {

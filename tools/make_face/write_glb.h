@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rig/appearance.h"
+#include "rig/blood/appearance.h"
 #include "rig/result.h"
 #include "tools/make_face/mesh.h"
 

@@ -1,8 +1,8 @@
 #include "tools/make_face/write_maps.h"
 
-#include "rig/canonical_face.h"
-#include "runtime/appearance_file.h"
-#include "runtime/face_file.h"
+#include "rig/head/canonical_face.h"
+#include "runtime/files/appearance_file.h"
+#include "runtime/files/face_file.h"
 #include "tools/blush/new_folder.h"
 
 namespace blush::make_face {

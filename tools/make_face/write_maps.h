@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "rig/appearance.h"
+#include "rig/blood/appearance.h"
 #include "rig/result.h"
 
 namespace blush::make_face {

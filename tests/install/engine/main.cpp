@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <set>
 
-#include "rig/rest_frame.h"
+#include "rig/deform/rest_frame.h"
 #include "runtime/character.h"
 #include "runtime/device.h"
-#include "runtime/face_file.h"
+#include "runtime/files/face_file.h"
+#include "runtime/files/output_file.h"
 #include "runtime/offscreen.h"
-#include "runtime/output_file.h"
 
 namespace {
 

@@ -1,0 +1,46 @@
+#include "runtime/light/occlusion_gpu.h"
+
+#include <array>
+#include <numbers>
+
+#include "runtime/frame/effect.h"
+
+namespace blush {
+
+static_assert(most_occlusion_poses <= 4 * std::extent_v<decltype(shared::FrameBlock::occlusion_weights)>);
+
+void write_occlusion_weights(const CharacterState& state, shared::FrameBlock& block) {
+    const OcclusionSet& set = *state.occlusion;
+    std::array<float, most_occlusion_poses> weights{};
+    occlusion_weights(set, state.face, state.pose.weights, std::span(weights).first(set.poses.size()));
+    for (std::size_t p = 0; p < set.poses.size(); ++p) {
+        block.occlusion_weights[p / 4][static_cast<glm::length_t>(p % 4)] = weights[p];
+    }
+    block.occlusion_poses = {static_cast<int>(set.poses.size()), static_cast<int>(state.face.positions.size()),
+                             state.settings.choice(occlusion_effect.name, "bounces") == 0 ? 1 : 0, 0};
+}
+
+std::vector<glm::vec4> packed_occlusion(const OcclusionSet& set) {
+    constexpr auto pi = std::numbers::pi_v<float>;
+    // The cosine's convolution by band (rig/light/spherical_harmonics.h).
+    constexpr std::array<float, 9> band = {pi, pi / 1.5F, pi / 1.5F, pi / 1.5F, pi / 4, pi / 4, pi / 4, pi / 4, pi / 4};
+    std::vector<glm::vec4> packed;
+    for (const OcclusionPose& pose : set.poses) {
+        for (const LightTransfer& transfer : pose.transfers) {
+            std::array<float, 9> h{};
+            for (std::size_t i = 0; i < 9; ++i) h[i] = transfer[i] / band[i];
+            packed.emplace_back(h[0], h[1], h[2], h[3]);
+            packed.emplace_back(h[4], h[5], h[6], h[7]);
+            packed.emplace_back(h[8], 0, 0, 0);
+        }
+    }
+    return packed;
+}
+
+void bind_occlusion(CharacterState& state) {
+    auto& own = state.own<OcclusionBuffer>();
+    if (!own.coefficients) own.coefficients = gl::make_buffer<glm::vec4>(packed_occlusion(*state.occlusion));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BLUSH_OCCLUSION_BINDING, own.coefficients.name());
+}
+
+}  // namespace blush

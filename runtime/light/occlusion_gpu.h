@@ -1,0 +1,21 @@
+#pragma once
+/// The occlusion coefficients of a character on the GPU.
+
+#include "runtime/frame/character_state.h"
+
+namespace blush {
+
+/// Fills the block's poses and their weights. The face must have coefficients.
+void write_occlusion_weights(const CharacterState& state, shared::FrameBlock& block);
+
+/// Binds the coefficients, uploaded when first asked for.
+void bind_occlusion(CharacterState& state);
+
+/// The buffer's contents: three entries a vertex and pose, as shaders/light/occlusion.glsl reads them.
+std::vector<glm::vec4> packed_occlusion(const OcclusionSet& set);
+
+struct OcclusionBuffer {
+    gl::Buffer coefficients;
+};
+
+}  // namespace blush

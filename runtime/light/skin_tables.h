@@ -1,0 +1,14 @@
+#pragma once
+/// The tables that shading skin reads, as textures; made when first asked for.
+
+#include "runtime/frame/character_state.h"
+
+namespace blush {
+
+struct SkinTables {
+    gl::Texture beckmann, specular_albedo;  ///< rig/light/skin_reflectance.h
+};
+
+const SkinTables& skin_tables(CharacterState& state);
+
+}  // namespace blush
