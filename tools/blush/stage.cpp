@@ -1,0 +1,74 @@
+#include "tools/blush/stage.h"
+
+#include "runtime/files/face_file.h"
+#include "runtime/files/occlusion_file.h"
+#include "runtime/files/rig_description_file.h"
+#include "runtime/frame/character_state.h"
+#include "tools/blush/assets.h"
+
+namespace blush::tool {
+
+Result<FaceFiles> load_face_files(const std::string& face_name, const std::string& rig_file) {
+    Result<Face> face = load_face(face_path(face_name));
+    if (!face) return face.error();
+    Result<RigDescription> rig = find_rig_description(*face, rig_file);
+    if (!rig) return rig.error();
+    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face->path));
+    if (!appearance) return appearance.error();
+    Result<std::optional<OcclusionSet>> occlusion = find_occlusion(*face);
+    if (!occlusion) return occlusion.error();
+    return FaceFiles{*std::move(face), *std::move(rig), *std::move(appearance), *std::move(occlusion)};
+}
+
+Result<Character> make_character(const Device& device, FaceFiles files, const PoseOptions& pose) {
+    Result<Character> character = Character::create(device, std::move(files.face), files.rig);
+    if (!character) return character;
+    character->set_appearance(std::move(files.appearance));
+    character->set_occlusion(std::move(files.occlusion));
+    if (Status set = pose.apply(character->face(), character->rig(), character->controls()); !set) return set.error();
+    const auto apply_setting = [&](std::string_view name, std::string_view value) {
+        return character->set(name, value);
+    };
+    if (Status set = pose.apply_settings(apply_setting); !set) return set.error();
+    return character;
+}
+
+Result<std::unique_ptr<Stage>> make_stage(const std::string& face, const PoseOptions& pose) {
+    Result<FaceFiles> files = load_face_files(face, pose.rig_file);
+    if (!files) return files.error();
+    Result<Device> device = Device::headless();
+    if (!device) return device.error();
+    Result<Character> character = make_character(*device, *std::move(files), pose);
+    if (!character) return character.error();
+    return std::make_unique<Stage>(Stage{*std::move(device), *std::move(character)});
+}
+
+double millimetres_a_unit(Character& character) {
+    const double set = character.state().settings.number("scattering", "millimetres_a_unit");
+    return set > 0 ? set : character.state().scale.millimetres_a_unit;
+}
+
+const FrameReport& draw_alone(Character& character, View view) {
+    view.cut = true;
+    const FrameReport& report = character.draw(view);
+    view.cut = false;
+    return report.incomplete ? character.draw(view) : report;
+}
+
+Status finite(const FrameReport& report) {
+    if (report.not_finite) return Error{"--check-finite: " + report.not_finite->sentence()};
+    return Done{};
+}
+
+Playback::Playback(Character& character, PerformerParts parts)
+    : character_(&character), performer_(character.rig(), std::move(parts)) {
+    character_->follow_blood(performer_.blood());
+}
+
+Status Playback::seek(double time_seconds) {
+    Status played = performer_.seek(time_seconds);
+    performer_.write(character_->controls(), character_->pose());
+    return played;
+}
+
+}  // namespace blush::tool
