@@ -81,7 +81,7 @@ public:
     Result<Image> frame_at(double time_seconds, bool alone) {
         if (Status played = playback_.seek(time_seconds); !played) return played.error();
         const auto number = static_cast<std::uint32_t>(std::llround(time_seconds * frames_a_second_));
-        const FrameReport& report = shot_.draw(time_seconds, number, alone);
+        const FrameReport report = shot_.draw(time_seconds, number, alone);
         if (report.not_finite) {
             return Error{"--check-finite: at " + std::to_string(time_seconds) + " s " + report.not_finite->sentence()};
         }

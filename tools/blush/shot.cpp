@@ -45,7 +45,7 @@ Result<Shot> Shot::make(Stage& stage, Size size, const ShotOptions& options, Out
     return shot;
 }
 
-const FrameReport& Shot::draw(double time_seconds, std::uint32_t frame_number, bool alone) {
+FrameReport Shot::draw(double time_seconds, std::uint32_t frame_number, bool alone) {
     view_.lighting = lighting_ ? &*lighting_ : nullptr;
     view_.time_seconds = time_seconds;
     view_.frame_number = frame_number;

@@ -34,7 +34,7 @@ public:
     static Result<Shot> make(Stage& stage, Size size, const ShotOptions& options, Output output);
 
     /// The stage as it stands now. alone: not the frame after the one drawn before.
-    const FrameReport& draw(double time_seconds, std::uint32_t frame_number, bool alone);
+    FrameReport draw(double time_seconds, std::uint32_t frame_number, bool alone);
     /// What was drawn.
     Image read() const { return offscreen_.read(); }
     Size size() const { return {view_.width, view_.height}; }

@@ -8,6 +8,23 @@
 
 namespace blush::tool {
 
+namespace {
+
+/// Two frames for one picture: an effect is on where either ran it.
+FrameReport united(FrameReport first, const FrameReport& second) {
+    for (std::size_t e = 0; e < first.effects.size(); ++e) {
+        if (!first.effects[e].on) first.effects[e] = second.effects[e];
+    }
+    first.passes.insert(first.passes.end(), second.passes.begin(), second.passes.end());
+    first.deltas_added += second.deltas_added;
+    first.triangles_drawn += second.triangles_drawn;
+    if (!first.not_finite) first.not_finite = second.not_finite;
+    first.incomplete = second.incomplete;
+    return first;
+}
+
+}  // namespace
+
 Result<FaceFiles> load_face_files(const std::string& face_name, const std::string& rig_file) {
     Result<Face> face = load_face(face_path(face_name));
     if (!face) return face.error();
@@ -48,11 +65,11 @@ double millimetres_a_unit(Character& character) {
     return set > 0 ? set : character.state().scale.millimetres_a_unit;
 }
 
-const FrameReport& draw_alone(Character& character, View view) {
+FrameReport draw_alone(Character& character, View view) {
     view.cut = true;
-    const FrameReport& report = character.draw(view);
+    FrameReport report = character.draw(view);
     view.cut = false;
-    return report.incomplete ? character.draw(view) : report;
+    return report.incomplete ? united(std::move(report), character.draw(view)) : report;
 }
 
 Status finite(const FrameReport& report) {

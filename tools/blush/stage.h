@@ -35,7 +35,8 @@ Result<std::unique_ptr<Stage>> make_stage(const std::string& face, const PoseOpt
 double millimetres_a_unit(Character& character);
 
 /// Draws a picture that stands alone: what was drawn before does not show, and a mode that needs two frames gets them.
-const FrameReport& draw_alone(Character& character, View view);
+/// The report is of all that was run for it.
+FrameReport draw_alone(Character& character, View view);
 
 /// Error: the finding of --check-finite.
 Status finite(const FrameReport& report);

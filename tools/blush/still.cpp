@@ -26,7 +26,7 @@ Result<Still> draw_still(const StillOptions& options) {
     if (Status played = playback.seek(options.perform.at_seconds); !played) return played.error();
     Result<Shot> shot = Shot::make(**stage, *size, options.shot, output_of(options.output));
     if (!shot) return shot.error();
-    const FrameReport& report = shot->draw(options.perform.at_seconds, 0, true);
+    const FrameReport report = shot->draw(options.perform.at_seconds, 0, true);
     if (Status good = finite(report); !good) return good.error();
     return Still{shot->read(), plan_of(character, report)};
 }
