@@ -1,16 +1,5 @@
 // Linear HDR shading of the face, drawn forward: interpolants fill a surface's record, the record is lit.
-#include "shared.glsl"
-#include "vectors.glsl"
-#include "draw/interpolants.glsl"
-#include "draw/surface.glsl"
-#include "draw/relief.glsl"
-#include "draw/lighting.glsl"
-#include "light/ambient.glsl"
-#include "light/arriving.glsl"
-#include "draw/ggx.glsl"
-#include "draw/hooks.glsl"
-#include "draw/material.glsl"
-#include "draw/model.glsl"
+#include "draw/shading.glsl"
 #include "draw/coverage.glsl"
 
 // At the centroid of the samples that are covered: the middle of a pixel may lie beyond a triangle's edge, and where that

@@ -4,9 +4,8 @@
 // Which lighting a record is for.
 const int model_plain = 0, model_skin = 1, model_eye = 2, model_mouth = 3, model_hair = 4;
 
-// 33 floats. A thin G-buffer keeps the 14 from normal to occlusion and `exposed`, most of them in 8 bits, and the model
-// (in its stencil); depth gives position and footprint back, the triangle the vertex normal, layout_uv and visibility.
-// In texture space layout_uv is the place in the image itself.
+// 33 floats. A G-buffer keeps 20, most of them in 8 bits: depth gives position and footprint back, the triangle the vertex
+// normal, layout_uv and visibility. In texture space layout_uv is the place in the image itself.
 struct Surface {
     int model;
     vec3 position;       // world
@@ -22,7 +21,7 @@ struct Surface {
     float specular;      // factor on what a surface that is no metal reflects (KHR_materials_specular)
     float occlusion;     // share of the ambient light that the material's map leaves
     vec3 along;          // unit: of hair its strand's direction, of an eye the normal of the iris; else the normal
-    float exposed;       // share of the light that the part's own surroundings leave: lids, lips, strands before it
+    float exposed;       // share of the light that lids, lips or other strands leave
     float scatter;       // how far light goes below, as share of its whole reach
     vec3 emitted;        // radiance, linear
 };
