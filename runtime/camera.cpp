@@ -14,8 +14,8 @@ Camera OrbitCamera::camera(float aspect) const {
     // The near plane keeps 1/500 of the distance at least: depth precision falls with near/far.
     const float near_plane = std::max(distance - 2 * scene_radius, distance * 0.002F);
     const float far_plane = distance + 2 * scene_radius;
-    return {glm::lookAt(target_world + distance * towards, target_world, glm::vec3(0, 1, 0)),
-            glm::perspective(vertical_field_of_view_radians, aspect, near_plane, far_plane)};
+    return {glm::lookAtRH(target_world + distance * towards, target_world, glm::vec3(0, 1, 0)),
+            glm::perspectiveRH_NO(vertical_field_of_view_radians, aspect, near_plane, far_plane)};
 }
 
 Bounds portrait(const Bounds& bounds, const FaceScale& scale) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "rig/names.h"
 
@@ -12,7 +13,7 @@ namespace blush {
 namespace {
 
 glm::mat4 matrix_of(const Transform& t) {
-    glm::mat4 matrix = glm::mat4_cast(t.rotation);
+    glm::mat4 matrix = glm::mat4_cast(glm::quat(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z));
     matrix[0] *= t.scale.x;
     matrix[1] *= t.scale.y;
     matrix[2] *= t.scale.z;

@@ -101,15 +101,15 @@ bool place_shadow_map(const LightSource& source, const Bounds& bounds, std::uint
     if (!(distance > 1.05F * radius) || !std::isfinite(distance)) return false;
     const glm::vec3 axis = directional ? along : along / distance;
     const glm::vec3 up = std::abs(axis.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::mat4 view = glm::lookAt(centre - distance * axis, centre, up);
+    const glm::mat4 view = glm::lookAtRH(centre - distance * axis, centre, up);
     const float near_distance = distance - radius, far_distance = distance + radius;
     const auto side = static_cast<float>(side_texels);
     if (directional) {
-        light.shadow_from_world = glm::ortho(-radius, radius, -radius, radius, near_distance, far_distance) * view;
+        light.shadow_from_world = glm::orthoRH_NO(-radius, radius, -radius, radius, near_distance, far_distance) * view;
         light.shadow.z = 2 * radius / side;
     } else {
         const float half_radians = std::asin(radius / distance);
-        light.shadow_from_world = glm::perspective(2 * half_radians, 1.0F, near_distance, far_distance) * view;
+        light.shadow_from_world = glm::perspectiveRH_NO(2 * half_radians, 1.0F, near_distance, far_distance) * view;
         light.shadow.z = 2 * std::tan(half_radians) / side;
         light.shadow.w = 1;
     }

@@ -85,8 +85,8 @@ std::shared_ptr<Drawn> make_drawn(const Device& device, const Lighting& lighting
     // From so far that every pixel is seen along -Z.
     constexpr float far_away = 1e4F;
     constexpr auto half = static_cast<float>(half_extent);
-    drawn->view.camera.view_from_world = glm::lookAt(glm::vec3(0, 0, far_away), glm::vec3(0), glm::vec3(0, 1, 0));
-    drawn->view.camera.clip_from_view = glm::ortho(-half, half, -half, half, far_away - 2, far_away + 2);
+    drawn->view.camera.view_from_world = glm::lookAtRH(glm::vec3(0, 0, far_away), glm::vec3(0), glm::vec3(0, 1, 0));
+    drawn->view.camera.clip_from_view = glm::orthoRH_NO(-half, half, -half, half, far_away - 2, far_away + 2);
     return drawn;
 }
 

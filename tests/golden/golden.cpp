@@ -11,6 +11,7 @@
 #include "runtime/files/image_file.h"
 #include "runtime/files/output_file.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -117,7 +118,7 @@ TEST_F(Golden, JointsAndABlendedHalf) {
     face.materials[1].alpha_mode = AlphaMode::blend;
     face.materials[1].base_color_linear = {0.2F, 0.4F, 0.9F, 0.5F};
     face.primitives[1].material = 1;
-    face.nodes[1].rest.rotation = glm::angleAxis(0.5F, glm::vec3(1, 0, 0));
+    face.nodes[1].rest.rotation = rotation_of(glm::angleAxis(0.5F, glm::vec3(1, 0, 0)));
     expect_golden("joints_and_blending", picture(std::move(face), {1, 1}, -0.4F), bounds);
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runtime/files/face_file.h"
+#include "tests/rotation.h"
 #include "tests/shared_data.h"
 
 namespace blush {
@@ -16,7 +17,7 @@ using testing::IsEmpty;
 
 glm::mat4 parent_from_node(const Node& node) {
     if (node.matrix) return *node.matrix;
-    const glm::mat3 rotation = glm::mat3_cast(node.rest.rotation);
+    const glm::mat3 rotation = glm::mat3_cast(glm_of(node.rest.rotation));
     glm::mat4 m(1);
     for (int c = 0; c < 3; ++c) m[c] = glm::vec4(rotation[c] * node.rest.scale[c], 0);
     m[3] = glm::vec4(node.rest.translation, 1);

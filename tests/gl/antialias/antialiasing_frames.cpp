@@ -9,6 +9,7 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/frame/character_state.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -524,7 +525,7 @@ TEST_F(Velocities, AJointedFaceMovesWithItsJoints) {
     const Offscreen offscreen = make_offscreen(side, side);
     const View view = framed_view(character, offscreen);
     draw(character, offscreen, view);
-    character.pose().nodes[1].rotation = glm::angleAxis(0.1F, glm::vec3(0, 0, 1));
+    character.pose().nodes[1].rotation = rotation_of(glm::angleAxis(0.1F, glm::vec3(0, 0, 1)));
     draw(character, offscreen, view);
     const std::vector<float> drawn = drawn_velocities(character);
     float left = 0, right = 0;

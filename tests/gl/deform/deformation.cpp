@@ -8,6 +8,7 @@
 #include "rig/deform/deform.h"
 #include "runtime/frame/character_state.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 #include "tests/ulp.h"
 
 namespace blush {
@@ -222,7 +223,7 @@ TEST_F(Deformation, SkinningEqualsTheCpu) {
     const Face face = make_face({.targets = 2, .normal_deltas = true, .joints = true});
     Character character = make_character(face);
     set_weights(character, {0.7F, -0.3F});
-    character.pose().nodes[1].rotation = glm::angleAxis(0.6F, glm::normalize(glm::vec3(1, 2, 0)));
+    character.pose().nodes[1].rotation = rotation_of(glm::angleAxis(0.6F, glm::normalize(glm::vec3(1, 2, 0))));
     character.pose().nodes[2].translation.y += 0.3F;
     const Offscreen offscreen = make_offscreen(32, 32);
     test::draw(character, offscreen);

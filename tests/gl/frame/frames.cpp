@@ -8,6 +8,7 @@
 
 #include "runtime/frame/character_state.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -88,7 +89,7 @@ struct Scene {
 
 std::vector<Scene> scenes() {
     const auto turn_joint = [](Character& character) {
-        character.pose().nodes[1].rotation = glm::angleAxis(0.5F, glm::vec3(0, 0, 1));
+        character.pose().nodes[1].rotation = rotation_of(glm::angleAxis(0.5F, glm::vec3(0, 0, 1)));
     };
     const auto recomputed = [](Character& character) { ASSERT_TRUE(character.set("normals.source", "recomputed")); };
     const auto in_passes = [](Character& character) { ASSERT_TRUE(character.set("deformation.method", "passes")); };

@@ -12,6 +12,7 @@
 #include "runtime/frame/effect.h"
 #include "runtime/light/environment_map.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -139,7 +140,8 @@ TEST_F(OcclusionOnTheGpu, EqualsTheTwinAtRestDeformedAndTurned) {
         for (const float yaw : {0.0F, 0.5F}) {
             for (const float turn : {0.0F, 1.0F}) {
                 Face face = square();
-                face.nodes[0].rest.rotation = glm::angleAxis(yaw, glm::normalize(glm::vec3(0.2F, 1, 0.1F)));
+                face.nodes[0].rest.rotation =
+                    rotation_of(glm::angleAxis(yaw, glm::normalize(glm::vec3(0.2F, 1, 0.1F))));
                 Character character = plain(face, same_everywhere(face, {{"", hidden}}));
                 test::set_weights(character, {bend, 0});
                 lighting.environment_turn_radians = turn;
@@ -147,7 +149,7 @@ TEST_F(OcclusionOnTheGpu, EqualsTheTwinAtRestDeformedAndTurned) {
                 const glm::dvec3 drawn = middle(test::draw(character, offscreen, view));
 
                 const Character::Surface surface = character.read_deformed();
-                const glm::dmat3 node(glm::mat3_cast(face.nodes[0].rest.rotation));
+                const glm::dmat3 node(glm::mat3_cast(glm_of(face.nodes[0].rest.rotation)));
                 const glm::dmat3 frame = vertex_frame(glm::normalize(node * glm::dvec3(surface.normals[0])),
                                                       node * glm::dvec3(surface.tangents[0]));
                 const glm::dmat3 about_y(glm::rotate(glm::dmat4(1), static_cast<double>(turn), glm::dvec3(0, 1, 0)));

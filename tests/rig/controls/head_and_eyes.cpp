@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "tests/rotation.h"
 #include "tests/test_faces.h"
 
 namespace blush {
@@ -168,7 +169,7 @@ TEST(WorldFromNodes, ParentsComeFirstAndMatricesReplaceTransforms) {
         node.parent = n - 1;
         node.rest.translation = {1, 0, 0};
         node.rest.scale = glm::vec3(2);
-        node.rest.rotation = glm::angleAxis(glm::radians(90.0F), glm::vec3(0, 0, 1));
+        node.rest.rotation = rotation_of(glm::angleAxis(glm::radians(90.0F), glm::vec3(0, 0, 1)));
         face.nodes.push_back(node);
     }
     face.nodes[2].matrix = glm::translate(glm::mat4(1), glm::vec3(0, 0, 5));
