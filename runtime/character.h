@@ -71,8 +71,8 @@ public:
 
     /// Deforms (on the GPU, without drawing) and reads back: mesh-local positions, normals, tangents of every vertex.
     struct Surface {
-        std::vector<glm::vec3> positions, normals;
-        std::vector<glm::vec4> tangents;
+        std::vector<Vec3> positions, normals;
+        std::vector<Vec4> tangents;
     };
     Surface read_deformed();
 

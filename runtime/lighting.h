@@ -5,10 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/face.h"
 #include "rig/light/spherical_harmonics.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -16,11 +15,11 @@ enum class LightKind : std::uint8_t { directional, point, spot };
 
 struct LightSource {
     LightKind kind = LightKind::directional;
-    glm::vec3 position_world{0};          ///< of a point or a spot
-    glm::vec3 direction_world{0, 0, -1};  ///< the way it shines, any length above 0; of a directional light or a spot
+    Vec3 position_world{0};          ///< of a point or a spot
+    Vec3 direction_world{0, 0, -1};  ///< the way it shines, any length above 0; of a directional light or a spot
     /// Irradiance on a facing surface / pi, so that white reflects this radiance; 0 or more. Of a point or a spot at
     /// `reference_distance`.
-    glm::vec3 radiance_linear{1};
+    Vec3 radiance_linear{1};
     float reference_distance = 1;  ///< world units, above 0
     float inner_radians = 0.4F;    ///< half angle of a spot's full light, below `outer_radians`
     float outer_radians = 0.5F;    ///< half angle of a spot's end, above 0 and below pi / 2
@@ -53,9 +52,9 @@ Result<std::shared_ptr<const Environment>> make_environment(const Image& image);
 struct Lighting {
     /// At most 8 (BLUSH_MOST_LIGHTS) are used; one that is dark, not finite or without a direction is left out.
     std::vector<LightSource> lights;
-    glm::vec3 sky_radiance_linear{0}, ground_radiance_linear{0};  ///< ambient; not used with an environment
+    Vec3 sky_radiance_linear{0}, ground_radiance_linear{0};  ///< ambient; not used with an environment
     std::shared_ptr<const Environment> environment;
-    glm::vec3 orbit_centre_world{0};
+    Vec3 orbit_centre_world{0};
     float environment_factor = 1, environment_turn_radians = 0;
 };
 

@@ -3,15 +3,14 @@
 
 #include <cstdint>
 
-#include <glm/glm.hpp>
-
+#include "rig/vectors.h"
 #include "runtime/lighting.h"
 
 namespace blush {
 
 struct Camera {
-    glm::mat4 view_from_world{1};
-    glm::mat4 clip_from_view{1};
+    Mat4 view_from_world{1};
+    Mat4 clip_from_view{1};
 
     bool operator==(const Camera&) const = default;
 };
@@ -37,7 +36,7 @@ struct View {
     /// exposure adapts by the time since the frame before (at once after a cut, and where it is not later).
     double time_seconds = 0;
     std::uint32_t frame_number = 0;  ///< chooses the grain of the film
-    glm::vec4 background_linear{0.035F, 0.037F, 0.042F, 1};
+    Vec4 background_linear{0.035F, 0.037F, 0.042F, 1};
     bool timed = false;          ///< measure each pass (FrameReport::passes)
     bool check_finite = false;   ///< scan what each pass wrote (slow: reads it back)
     bool force_effects = false;  ///< run effects that could be left out, to show that leaving them out was right
