@@ -179,7 +179,8 @@ TEST_F(Threads, WhatBelongsToAFace) {
     ASSERT_TRUE(write_hemoglobin_maps(maps, {.names = {"joy", "anger"}, .changes = {{grey, grey}, {grey, grey}}}));
     ASSERT_TRUE(write_wrinkles(maps, {.zones = {"crow_left"},
                                       .derivatives = DerivativeMap(16, 16, Vec2(0.1F, -0.2F)),
-                                      .masks = {ScalarMap(16, 16, 0)}}));
+                                      .masks = {ScalarMap(16, 16, 0)},
+                                      .part = {}}));
     std::ofstream(path("face.rig.json")) << R"({"expressions": []})";
     expect_same_on_four_threads({[&] { return contents_of(load_face_appearance(maps)); },
                                  [&] { return contents_of(find_occlusion(head)); },
