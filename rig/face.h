@@ -11,10 +11,8 @@
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-
 #include "rig/result.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -26,11 +24,11 @@ inline constexpr float unit_length_tolerance = 0.02F;
 /// Targets of one name in several meshes are one Target.
 struct Target {
     std::string name;
-    std::vector<std::uint32_t> vertices;     ///< face vertex indices, strictly ascending
-    std::vector<glm::vec3> position_deltas;  ///< mesh units, one for each of `vertices`
-    std::vector<glm::vec3> normal_deltas;    ///< one for each of `vertices` (zero where the file has none), or empty
-    std::vector<glm::vec3> tangent_deltas;   ///< one for each of `vertices` (zero where the file has none), or empty
-    float default_weight = 0;                ///< the file's own initial weight, any finite value
+    std::vector<std::uint32_t> vertices;  ///< face vertex indices, strictly ascending
+    std::vector<Vec3> position_deltas;    ///< mesh units, one for each of `vertices`
+    std::vector<Vec3> normal_deltas;      ///< one for each of `vertices` (zero where the file has none), or empty
+    std::vector<Vec3> tangent_deltas;     ///< one for each of `vertices` (zero where the file has none), or empty
+    float default_weight = 0;             ///< the file's own initial weight, any finite value
 };
 
 /// Where the shading normal of a primitive's vertices comes from once targets move them.
@@ -57,24 +55,24 @@ struct Mesh {
 
 /// Translation, rotation, scale: parent_from_node = T * R * S (glTF 2.0, 3.5.3).
 struct Transform {
-    glm::vec3 translation{0};
-    glm::quat rotation{1, 0, 0, 0};  ///< unit length
-    glm::vec3 scale{1};
+    Vec3 translation{0};
+    Quat rotation{1, 0, 0, 0};  ///< unit length
+    Vec3 scale{1};
 };
 
 struct Node {
     std::string name;
     std::int32_t parent = -1;  ///< always less than this node's own index after loading (parents come first)
     Transform rest;
-    std::optional<glm::mat4> matrix;  ///< set when the file gives a matrix instead of a Transform
+    std::optional<Mat4> matrix;  ///< set when the file gives a matrix instead of a Transform
     std::int32_t mesh = -1;
     std::int32_t skin = -1;
     std::uint32_t file_index = 0;  ///< the node's number in the file, for messages
 };
 
 struct Skin {
-    std::vector<std::uint32_t> joints;       ///< node indices
-    std::vector<glm::mat4> joint_from_mesh;  ///< inverse bind matrices, one a joint
+    std::vector<std::uint32_t> joints;  ///< node indices
+    std::vector<Mat4> joint_from_mesh;  ///< inverse bind matrices, one a joint
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
@@ -83,15 +81,15 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 struct TextureUse {
     std::int32_t image = -1;  ///< index into Face::images, -1: none
     std::uint32_t uv_set = 0;
-    glm::mat3 uv_transform{1};
+    Mat3 uv_transform{1};
     bool repeat_u = true, repeat_v = true;
 };
 
 struct Material {
     std::string name;
-    glm::vec4 base_color_linear{1};
+    Vec4 base_color_linear{1};
     float metallic = 1, roughness = 1, normal_scale = 1, occlusion_strength = 1, alpha_cutoff = 0.5F;
-    glm::vec3 emissive_linear{0};
+    Vec3 emissive_linear{0};
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
     float specular = 1;  ///< factor on reflection at the surface, 0 to 1 (KHR_materials_specular)
@@ -146,15 +144,14 @@ struct Face {
     std::string path;  ///< where it came from, for messages
 
     // Vertices, all of one length.
-    std::vector<glm::vec3> positions;  ///< mesh-local, in the file's units
-    std::vector<glm::vec3> normals;    ///< unit length, within unit_length_tolerance
-    std::vector<glm::vec4>
-        tangents;  ///< xyz unit length (same tolerance), w = +1 or -1 (bitangent = cross(n, t.xyz) * w)
-    std::vector<glm::vec2> uv0, uv1;  ///< (0, 0) where the file has none
+    std::vector<Vec3> positions;  ///< mesh-local, in the file's units
+    std::vector<Vec3> normals;    ///< unit length, within unit_length_tolerance
+    std::vector<Vec4> tangents;   ///< xyz unit length (same tolerance), w = +1 or -1 (bitangent = cross(n, t.xyz) * w)
+    std::vector<Vec2> uv0, uv1;   ///< (0, 0) where the file has none
 
     // One an entry a vertex if any mesh is skinned, else empty.
-    std::vector<glm::u16vec4> joints;      ///< indices into Skin::joints
-    std::vector<glm::vec4> joint_weights;  ///< sum 1 (all zero: the vertex is not skinned)
+    std::vector<U16Vec4> joints;      ///< indices into Skin::joints
+    std::vector<Vec4> joint_weights;  ///< sum 1 (all zero: the vertex is not skinned)
 
     std::vector<std::uint32_t> indices;  ///< face vertex indices
     std::vector<Primitive> primitives;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/glm.hpp>
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -24,11 +24,11 @@ struct Map {
 };
 
 using ScalarMap = Map<float>;
-using ColourMap = Map<glm::vec3>;
+using ColourMap = Map<Vec3>;
 
 /// Bilinear, between texel centres, clamped at the edges; uv in 0 to 1. The map has one texel at least.
-float sample(const ScalarMap& map, glm::vec2 uv);
-glm::vec3 sample(const ColourMap& map, glm::vec2 uv);
+float sample(const ScalarMap& map, Vec2 uv);
+Vec3 sample(const ColourMap& map, Vec2 uv);
 
 /// The map at another size: each new texel is the mean of the area that it covers (also of parts of texels). A larger
 /// size repeats texels; sample() is there for smooth enlargement. Sizes: 1 or more.

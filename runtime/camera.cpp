@@ -9,13 +9,13 @@ namespace blush {
 
 Camera OrbitCamera::camera(float aspect) const {
     const float pitch = std::clamp(pitch_radians, -1.5F, 1.5F);
-    const glm::vec3 towards(std::sin(yaw_radians) * std::cos(pitch), std::sin(pitch),
-                            std::cos(yaw_radians) * std::cos(pitch));
+    const glm::dvec3 towards(std::sin(yaw_radians) * std::cos(pitch), std::sin(pitch),
+                             std::cos(yaw_radians) * std::cos(pitch));
     // The near plane keeps 1/500 of the distance at least: depth precision falls with near/far.
     const float near_plane = std::max(distance - 2 * scene_radius, distance * 0.002F);
     const float far_plane = distance + 2 * scene_radius;
-    return {glm::lookAt(target_world + distance * towards, target_world, glm::vec3(0, 1, 0)),
-            glm::perspective(vertical_field_of_view_radians, aspect, near_plane, far_plane)};
+    return {glm::lookAtRH(target_world + static_cast<double>(distance) * towards, target_world, glm::dvec3(0, 1, 0)),
+            glm::perspectiveRH_NO(vertical_field_of_view_radians, aspect, near_plane, far_plane)};
 }
 
 Bounds portrait(const Bounds& bounds, const FaceScale& scale) {
@@ -36,9 +36,10 @@ OrbitCamera frame_head(const Bounds& bounds, const FaceScale& scale, float aspec
     if (!std::isfinite(extent) || !(extent > 0)) return camera;
     const Bounds shown = portrait(bounds, scale);
     const glm::vec3 size = shown.size();
-    camera.target_world = shown.centre();
+    const glm::vec3 target = shown.centre();
+    camera.target_world = target;
     // From the target to the farthest corner of everything, since the planes must hold what the portrait leaves out.
-    const glm::vec3 farthest = glm::max(bounds.high - camera.target_world, camera.target_world - bounds.low);
+    const glm::vec3 farthest = glm::max(bounds.high - target, target - bounds.low);
     camera.scene_radius = glm::length(farthest);
     // The front of the box fills 1 / margin of the narrower side.
     constexpr float margin = 1.12F;

@@ -1,16 +1,15 @@
 #pragma once
 /// A camera that orbits, and finds its own place in front of a head.
 
-#include <glm/glm.hpp>
-
 #include "rig/controls/head_and_eyes.h"
 #include "rig/head/face_scale.h"
+#include "rig/vectors.h"
 #include "runtime/view.h"
 
 namespace blush {
 
 struct OrbitCamera {
-    glm::vec3 target_world{0};
+    DVec3 target_world{0};
     float distance = 1;       ///< above 0, world units
     float yaw_radians = 0;    ///< 0 looks at the front of a glTF face; positive moves the camera to the face's left
     float pitch_radians = 0;  ///< positive moves the camera up; clamped to +-1.5 (the poles have no up)

@@ -1,172 +1,92 @@
 #include "runtime/character.h"
 
 #include <algorithm>
-#include <cassert>
+#include <cmath>
 
-#include "runtime/appearance/appearance_gpu.h"
-#include "runtime/files/face_file.h"
-#include "runtime/files/occlusion_file.h"
-#include "runtime/files/rig_description_file.h"
 #include "runtime/frame/character_state.h"
-#include "runtime/frame/frame.h"
+#include "runtime/frame/device_state.h"
 #include "runtime/gl/state_guard.h"
-#include "runtime/light/occlusion_gpu.h"
 
 namespace blush {
 namespace {
 
-/// For each target, whether it moves a primitive for which `wanted(primitive)` holds.
-template <class Wanted>
-std::vector<std::uint8_t> targets_that_move(const Face& face, Wanted wanted) {
-    std::vector<std::uint8_t> wanted_vertex(face.positions.size(), 0);
-    for (const Primitive& primitive : face.primitives) {
-        if (!wanted(primitive)) continue;
-        std::fill_n(wanted_vertex.begin() + primitive.first_vertex, primitive.vertex_count, std::uint8_t{1});
-    }
-    std::vector<std::uint8_t> moves;
-    moves.reserve(face.targets.size());
-    for (const Target& target : face.targets) {
-        moves.push_back(std::ranges::any_of(target.vertices, [&](std::uint32_t v) { return wanted_vertex[v] != 0; }));
-    }
-    return moves;
+/// The model of an asset on a device: of a character that is there already, or made.
+Result<std::shared_ptr<FaceModel>> model_of(const Device& device, const FaceAsset& asset) {
+    std::map<const AssetState*, std::weak_ptr<FaceModel>>& models = device.state().models;
+    std::erase_if(models, [](const auto& entry) { return entry.second.expired(); });
+    if (std::shared_ptr<FaceModel> made = models[&asset.state()].lock()) return made;
+    Result<std::shared_ptr<FaceModel>> model = FaceModel::create(device, asset);
+    if (model) models[&asset.state()] = *model;
+    return model;
 }
 
-Status build_programs(CharacterState& state) {
-    Result<gl::Program> tone = gl::make_program({"screen.vert", "camera/tone.frag"});
-    if (!tone) return tone.error();
-    state.tone_program = *std::move(tone);
-    state.scene_framebuffer = gl::make_framebuffer();
-    state.resolved_framebuffer = gl::make_framebuffer();
-    state.output_framebuffer = gl::make_framebuffer();
-    state.no_attributes = gl::make_vertex_array();
-    return Done{};
+bool finite(const glm::dmat4& matrix) {
+    for (glm::length_t c = 0; c < 4; ++c) {
+        for (glm::length_t r = 0; r < 4; ++r) {
+            if (!std::isfinite(matrix[c][r])) return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace
 
-Character::Character(std::unique_ptr<CharacterState> state) : state_(std::move(state)) {}
-Character::Character(Character&&) noexcept = default;
-Character& Character::operator=(Character&&) noexcept = default;
-Character::~Character() = default;
-
-Result<Character> Character::load(const Device& device, const std::filesystem::path& path) {
-    Result<Face> face = load_face(path);
-    if (!face) return face.error();
-    const Result<RigDescription> description = find_rig_description(*face);
-    if (!description) return description.error();
-    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(path));
-    if (!appearance) return appearance.error();
-    Result<std::optional<OcclusionSet>> occlusion = find_occlusion(*face);
-    if (!occlusion) return occlusion.error();
-    Result<Character> character = create(device, *std::move(face), *description);
-    if (character) {
-        character->set_appearance(*std::move(appearance));
-        character->set_occlusion(*std::move(occlusion));
-    }
-    return character;
+CharacterState::CharacterState(Device on, FaceAsset shows, std::shared_ptr<FaceModel> its)
+    : device(std::move(on)),
+      asset(std::move(shows)),
+      facts_of_face(asset.state()),
+      face(facts_of_face.face),
+      rig(facts_of_face.rig),
+      model(std::move(its)),
+      stream_out(model->deform) {
+    controls.assign(rig.control_names().size(), 0);
+    pose = rig.rest_pose();
+    const std::size_t nodes = face.nodes.size();
+    face_from_node.resize(nodes);
+    stance.world_from_node.resize(nodes + 1);
+    stance.skinned_from_mesh.resize(facts_of_face.joint_count);
+    shading_from_node.resize(nodes + 1);
+    draw_blocks = DrawBlocks::create(nodes + 1);
+    frame_block = gl::make_buffer(sizeof(shared::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
 
-Result<Character> Character::create(const Device& device, Face face, const std::optional<RigDescription>& description) {
-    if (Status valid = validate(face); !valid) return valid.error();
-    if (description) {
-        if (Status good = check(*description, face); !good) {
-            return Error{face.path + ": its rig description: " + good.error().message};
-        }
-    }
-    Rig rig = description ? Rig(face, *description) : Rig(face);
+Character::Character(std::shared_ptr<CharacterState> state) : state_(std::move(state)) {}
+
+Result<Character> Character::create(const Device& device, const FaceAsset& asset) {
     device.make_current();
     const gl::StateGuard guard;
-    auto state = std::make_unique<CharacterState>(device, std::move(face), std::move(rig));
-    Result<StreamOut> stream_out = StreamOut::create(device, state->face);
-    if (!stream_out) return stream_out.error();
-    state->stream_out.emplace(*std::move(stream_out));
-    Result<FaceModel> model = FaceModel::create(state->face, device.info().largest_texture_side_texels);
+    Result<std::shared_ptr<FaceModel>> model = model_of(device, asset);
     if (!model) return model.error();
-    state->model = *std::move(model);
-    if (Status programs = build_programs(*state); !programs) return programs.error();
-
-    state->controls.assign(state->rig.control_names().size(), 0);
-    state->pose = state->rig.rest_pose();
-    state->head_and_eyes = find_head_and_eyes(state->face);
-    state->bounds = moving_bounds(state->face);
-    state->scale = face_scale(state->face);
-    state->skin = find_skin(state->face);
-    state->material_kind = material_kinds(state->face);
-    state->eye_sockets = find_eye_sockets(state->face, state->material_kind);
-    state->target_needs_turned_normals = targets_that_move(
-        state->face, [](const Primitive& primitive) { return primitive.normal_source == NormalSource::recomputed; });
-    state->target_moves_normals = targets_that_move(
-        state->face, [](const Primitive& primitive) { return primitive.normal_source != NormalSource::rest; });
-    state->world_from_node.resize(state->face.nodes.size());
-    std::size_t joint_count = 0;
-    for (const Skin& skin : state->face.skins) joint_count += skin.joints.size();
-    state->skinned_from_mesh.resize(joint_count);
-    return Character(std::move(state));
+    return Character(on_device(new CharacterState(device, asset, *std::move(model))));
 }
 
-const Face& Character::face() const { return state_->face; }
-const Rig& Character::rig() const { return state_->rig; }
-std::optional<ControlId> Character::control(std::string_view name) const { return state_->rig.find(name); }
+const FaceAsset& Character::asset() const { return state_->asset; }
 
 void Character::set(ControlId control, float value) {
     const auto index = static_cast<std::size_t>(control);
-    assert(index < state_->controls.size() && "Character::set: a control of another rig");
-    state_->controls[index] = value;
+    if (index < state_->controls.size()) state_->controls[index] = value;
 }
 
 std::span<float> Character::controls() { return state_->controls; }
 Pose& Character::pose() { return state_->pose; }
 void Character::follow_blood(const BloodFlow* blood) { state_->blood = blood; }
+void Character::place(const glm::dmat4& world_from_face) {
+    state_->world_from_face = finite(world_from_face) ? world_from_face : glm::dmat4(1);
+}
+const glm::dmat4& Character::placed() const { return state_->world_from_face; }
+
+Status Character::set_joints(std::span<const glm::mat4> skinned_from_mesh) {
+    const std::size_t wanted = state_->facts_of_face.joint_count;
+    if (!skinned_from_mesh.empty() && skinned_from_mesh.size() != wanted) {
+        return Error{face().path + ": " + std::to_string(skinned_from_mesh.size()) + " joints given; the face has " +
+                     std::to_string(wanted)};
+    }
+    state_->host_joints.assign(skinned_from_mesh.begin(), skinned_from_mesh.end());
+    return Done{};
+}
 
 Status Character::set(std::string_view setting, std::string_view choice) {
-    return state_->settings.set(setting, choice);
-}
-
-void Character::set_appearance(FaceAppearance appearance) {
-    state_->device.make_current();
-    state_->appearance = std::move(appearance);
-    state_->own<WrinkleTextures>() = {};
-    state_->own<BloodTextures>() = {};
-}
-
-void Character::set_occlusion(std::optional<OcclusionSet> occlusion) {
-    assert((!occlusion || std::ranges::all_of(occlusion->poses,
-                                              [this](const OcclusionPose& pose) {
-                                                  return pose.transfers.size() == face().positions.size();
-                                              })) &&
-           "Character::set_occlusion: coefficients of another face");
-    state_->device.make_current();
-    state_->occlusion = std::move(occlusion);
-    state_->own<OcclusionBuffer>() = {};
-}
-
-OrbitCamera Character::framing(float aspect) const { return frame_head(state_->bounds, state_->scale, aspect); }
-
-const FrameReport& Character::draw(const View& view) {
-    if (view.width == 0 || view.height == 0) {
-        state_->report = {};
-        return state_->report;
-    }
-    state_->device.make_current();
-    const gl::StateGuard guard;
-    draw_frame(*state_, view);
-    return state_->report;
-}
-
-Character::Surface Character::read_deformed() {
-    state_->device.make_current();
-    const gl::StateGuard guard;
-    deform_only(*state_);
-    const std::size_t count = state_->face.positions.size();
-    Surface surface{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count), std::vector<glm::vec4>(count)};
-    const auto read = [](const gl::Buffer& buffer, auto& out) {
-        glGetNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(out.size() * sizeof(out[0])), out.data());
-    };
-    const SurfaceBuffers& buffers = state_->morphed();
-    read(buffers.positions, surface.positions);
-    read(buffers.normals, surface.normals);
-    read(buffers.tangents, surface.tangents);
-    return surface;
+    return state_->settings.set(setting, choice, SettingOwner::character);
 }
 
 }  // namespace blush

@@ -1,48 +1,36 @@
 #pragma once
-/// Character: a face on a device, with controls to set and a frame to draw.
+/// Character: one face that stands in scenes, with controls to set.
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 
-#include "rig/controls/rig.h"
-#include "rig/face.h"
-#include "rig/light/occlusion.h"
 #include "rig/motion/blood_flow.h"
 #include "rig/result.h"
-#include "runtime/camera.h"
+#include "rig/vectors.h"
 #include "runtime/device.h"
-#include "runtime/files/face_appearance.h"
-#include "runtime/frame_report.h"
-#include "runtime/settings.h"
-#include "runtime/view.h"
+#include "runtime/face_asset.h"
 
 namespace blush {
 
 struct CharacterState;
 
+/// An instance of an asset: controls, pose, place, deformed surface. What is on the GPU for the asset is made for the
+/// first character on a device that shows it, and shared by all of them. Its GL objects go with it, whatever context is
+/// current then; scenes forget it by themselves.
 class Character {
 public:
-    /// Loads a face file (runtime/files/face_file.h) onto the device, with the rig description beside it where there is
-    /// one (runtime/files/rig_description_file.h).
-    static Result<Character> load(const Device& device, const std::filesystem::path& path);
-    /// The same from a face in memory, which must satisfy validate(), and a description, which must satisfy check();
-    /// without one, that of its target names.
-    static Result<Character> create(const Device& device, Face face,
-                                    const std::optional<RigDescription>& description = std::nullopt);
+    /// Error: the face does not fit the device, in one sentence.
+    static Result<Character> create(const Device& device, const FaceAsset& asset);
 
-    Character(Character&&) noexcept;
-    Character& operator=(Character&&) noexcept;
-    ~Character();
-
-    const Face& face() const;
-    const Rig& rig() const;
+    const FaceAsset& asset() const;
+    const Face& face() const { return asset().face(); }
+    const Rig& rig() const { return asset().rig(); }
 
     /// A control by its name or any of its usual spellings; resolve once, then set by id.
-    std::optional<ControlId> control(std::string_view name) const;
-    /// A value that is not finite counts as 0.
+    std::optional<ControlId> control(std::string_view name) const { return rig().find(name); }
+    /// A value that is not finite counts as 0. A control of another rig is passed over.
     void set(ControlId control, float value);
     /// All controls of the rig at once, to be written in place (for BoundPerformance::sample).
     std::span<float> controls();
@@ -53,34 +41,26 @@ public:
     /// must outlive its use here.
     void follow_blood(const BloodFlow* blood);
 
-    /// Status: no such effect, setting or choice.
+    /// Where its file's space stands in the world, with whatever turn and scale; the identity at first. What is not
+    /// finite counts as the identity.
+    void place(const DMat4& world_from_face);
+    const DMat4& placed() const;
+
+    /// Joints from the host's skeleton, in place of the face's own nodes: skinned_from_mesh of each joint of each skin,
+    /// skins one after the other in file order, in the file's space. None: the face's own nodes again. Status: another
+    /// number of joints than the face has.
+    Status set_joints(std::span<const Mat4> skinned_from_mesh);
+
+    /// Status: no such effect, setting or choice, or one that another owner has (runtime/settings.h).
     Status set(std::string_view setting, std::string_view choice);
 
-    /// The maps of its wrinkles and its blood. load() finds them beside the file (runtime/files/face_appearance.h).
-    void set_appearance(FaceAppearance appearance);
-    /// How the face hides ambient light from itself: one transfer a vertex of this face in each pose; nothing: it hides
-    /// none. load() finds the file beside the face's (runtime/files/occlusion_file.h).
-    void set_occlusion(std::optional<OcclusionSet> occlusion);
-
-    /// A camera that frames the head at rest, and of a bust what lies close to it. aspect: width / height.
-    OrbitCamera framing(float aspect) const;
-
-    /// Draws one frame into view.framebuffer and restores every GL state that it touched. The report stands until the
-    /// next draw. A view without pixels draws nothing.
-    const FrameReport& draw(const View& view);
-
-    /// Deforms (on the GPU, without drawing) and reads back: mesh-local positions, normals, tangents of every vertex.
-    struct Surface {
-        std::vector<glm::vec3> positions, normals;
-        std::vector<glm::vec4> tangents;
-    };
-    Surface read_deformed();
-
     CharacterState& state() { return *state_; }
+    const CharacterState& state() const { return *state_; }
+    const std::shared_ptr<CharacterState>& shared_state() const { return state_; }
 
 private:
-    explicit Character(std::unique_ptr<CharacterState> state);
-    std::unique_ptr<CharacterState> state_;
+    explicit Character(std::shared_ptr<CharacterState> state);
+    std::shared_ptr<CharacterState> state_;
 };
 
 }  // namespace blush

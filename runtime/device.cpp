@@ -6,30 +6,40 @@
 #include <array>
 #include <vector>
 
-#include "runtime/gl/current_context.h"
-#include "runtime/gl/program.h"
+#include "runtime/frame/device_state.h"
 
 namespace blush {
 
-struct Device::State {
-    DeviceInfo info;
-    EGLDisplay display = EGL_NO_DISPLAY;
-    EGLContext context = EGL_NO_CONTEXT;  // EGL_NO_CONTEXT: adopted
-    std::vector<std::string> messages;
-    gl::ProgramCache programs;
-
-    ~State() {
-        if (context == EGL_NO_CONTEXT) {
-            if (gl::context_is_current()) programs.clear();
+DeviceState::~DeviceState() {
+    if (own_context == nullptr) {
+        if (is_current()) {
+            deletions.carry_out();
+            programs.clear();
             return;
         }
-        if (eglGetCurrentContext() == context) {
-            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        }
-        // The display is shared by every device of the process, so it is not terminated.
-        eglDestroyContext(display, context);
+        // The host's objects are safe from us: ours stay until its context goes.
+        const gl::DeletionScope scope(&deletions);
+        textures = {};
+        store = {};
+        return;
     }
-};
+    const gl::DeletionScope scope(&deletions);  // they go with their context
+    textures = {};
+    store = {};
+    if (eglGetCurrentContext() == own_context) {
+        eglMakeCurrent(own_display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    // The display is shared by every device of the process, so it is not terminated.
+    eglDestroyContext(own_display, own_context);
+}
+
+void DeviceState::enter() {
+    programs.make_current();
+    if (own_context != nullptr && eglGetCurrentContext() != own_context) {
+        eglMakeCurrent(own_display, EGL_NO_SURFACE, EGL_NO_SURFACE, own_context);
+    }
+    if (is_current()) deletions.carry_out();
+}
 
 namespace {
 
@@ -70,15 +80,15 @@ Status read_info(DeviceInfo& info) {
 
 }  // namespace
 
-Device::Device(std::shared_ptr<State> state) : state_(std::move(state)) {}
+Device::Device(std::shared_ptr<DeviceState> state) : state_(std::move(state)) {}
 
 Result<Device> Device::headless(bool debug) {
-    auto state = std::make_shared<State>();
+    auto state = std::make_shared<DeviceState>();
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
         return Error{"this machine's EGL has no surfaceless platform (Debian: libegl-mesa0 and libgl1-mesa-dri)"};
     }
-    state->display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (state->display == EGL_NO_DISPLAY || !eglInitialize(state->display, nullptr, nullptr) ||
+    state->own_display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (state->own_display == EGL_NO_DISPLAY || !eglInitialize(state->own_display, nullptr, nullptr) ||
         !eglBindAPI(EGL_OPENGL_API)) {
         return Error{"EGL cannot start on the surfaceless platform (Debian: libegl-mesa0 and libgl1-mesa-dri)"};
     }
@@ -91,9 +101,10 @@ Result<Device> Device::headless(bool debug) {
                                               EGL_CONTEXT_OPENGL_DEBUG,
                                               debug ? EGL_TRUE : EGL_FALSE,
                                               EGL_NONE};
-    state->context = eglCreateContext(state->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
-    if (state->context == EGL_NO_CONTEXT) return Error{"this machine's EGL offers no OpenGL 4.5 core context"};
-    eglMakeCurrent(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context);
+    state->own_context = eglCreateContext(state->own_display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    if (state->own_context == EGL_NO_CONTEXT) return Error{"this machine's EGL offers no OpenGL 4.5 core context"};
+    eglMakeCurrent(state->own_display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->own_context);
+    state->context = gl::current_context();
     if (Status info = read_info(state->info); !info) return info.error();
     state->programs.make_current();
     if (debug) {
@@ -105,8 +116,9 @@ Result<Device> Device::headless(bool debug) {
 }
 
 Result<Device> Device::adopt_current() {
-    if (!gl::context_is_current()) return Error{"no GL context is current on this thread"};
-    auto state = std::make_shared<State>();
+    if (!gl::current_context().exists()) return Error{"no GL context is current on this thread"};
+    auto state = std::make_shared<DeviceState>();
+    state->context = gl::current_context();
     if (Status info = read_info(state->info); !info) return info.error();
     state->programs.make_current();
     return Device(std::move(state));
@@ -114,11 +126,7 @@ Result<Device> Device::adopt_current() {
 
 const DeviceInfo& Device::info() const { return state_->info; }
 
-void Device::make_current() const {
-    state_->programs.make_current();
-    if (state_->context == EGL_NO_CONTEXT || eglGetCurrentContext() == state_->context) return;
-    eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context);
-}
+void Device::make_current() const { state_->enter(); }
 
 std::span<const std::string> Device::debug_messages() const { return state_->messages; }
 

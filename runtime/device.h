@@ -10,6 +10,8 @@
 
 namespace blush {
 
+struct DeviceState;
+
 struct DeviceInfo {
     std::string renderer, version;
     int largest_sample_count = 1;  ///< of a multisampled floating-point colour target
@@ -18,16 +20,17 @@ struct DeviceInfo {
 };
 
 /// A GL 4.5 core context: one of our own without a window (EGL), or the host's. A Device is a handle: copies share the
-/// context, and every Character keeps one, so that an own context lives as long as anything that needs it. Not
-/// thread-safe; use it, and every Character made with it, from one thread at a time.
+/// context, and every Character, Scene and View keeps one, so that an own context lives as long as anything that needs
+/// it. Use it, and all that was made with it, from one thread at a time. What was made with it may be destroyed on any
+/// thread, whatever context is current there: its GL objects go when the device is next used.
 class Device {
 public:
     /// Makes a context on the surfaceless EGL platform. debug: collect the driver's messages (debug_messages()).
     /// Error: no EGL, no surfaceless platform, or no OpenGL 4.5.
     static Result<Device> headless(bool debug = true);
 
-    /// Uses the context that is current on this thread, which must stay alive, and current whenever the library is
-    /// called. Error: no current context, or one below OpenGL 4.5. GL functions are found through libepoxy, by
+    /// Uses the context that is current on this thread, which must be current whenever something is made or drawn with
+    /// the device. Error: no current context, or one below OpenGL 4.5. GL functions are found through libepoxy, by
     /// themselves.
     static Result<Device> adopt_current();
 
@@ -39,10 +42,11 @@ public:
     /// High-severity messages of the driver since the device was made (headless with `debug` only).
     std::span<const std::string> debug_messages() const;
 
+    DeviceState& state() const { return *state_; }
+
 private:
-    struct State;
-    explicit Device(std::shared_ptr<State> state);
-    std::shared_ptr<State> state_;
+    explicit Device(std::shared_ptr<DeviceState> state);
+    std::shared_ptr<DeviceState> state_;
 };
 
 }  // namespace blush

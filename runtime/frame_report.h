@@ -41,12 +41,32 @@ struct NotFinite {
     std::string sentence() const;
 };
 
+/// What one character took part in, and what it cost.
+struct CharacterReport {
+    std::vector<EffectReport> effects;  ///< those that are asked for each character
+    std::vector<ActiveTarget> active;
+    std::uint64_t deltas_added = 0;       ///< target deltas that the deformation added up in this frame
+    std::uint32_t stream_outs = 0;        ///< deformations of its surface
+    std::uint32_t draws = 0;              ///< by all passes
+    std::uint32_t triangles_drawn = 0;    ///< by all passes
+    std::uint32_t lights = 0;             ///< that reach it
+    std::uint32_t lights_left_out = 0;    ///< that do not, or too weakly
+    double lights_left_out_radiance = 0;  ///< that white would reflect of them, at most
+    bool on_screen = false;               ///< it may be seen; false only where it cannot be
+};
+
 struct FrameReport {
+    /// Of all effects; one that is asked for each character is on where it is for any of them.
     std::vector<EffectReport> effects;
     std::vector<PassReport> passes;
-    std::vector<ActiveTarget> active;
-    std::uint64_t deltas_added = 0;     ///< target deltas that the deformation added up in this frame
-    std::uint32_t triangles_drawn = 0;  ///< by all passes
+    std::vector<CharacterReport> characters;  ///< in the order in which the scene has them
+    std::uint64_t deltas_added = 0;           ///< of all characters
+    std::uint32_t triangles_drawn = 0;        ///< of all characters
+    std::uint32_t draws = 0;
+    std::uint32_t program_switches = 0;   ///< while faces were drawn
+    std::uint32_t programs_compiled = 0;  ///< 0 after Scene::warm_up()
+    /// A defect of the library or of the driver, such as a shader that does not compile: the frame was not drawn.
+    std::optional<std::string> failure;
     std::optional<NotFinite> not_finite;
     bool incomplete = false;  ///< a temporal mode had no last frame: the next frame of the same scene has all samples
 };

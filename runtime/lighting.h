@@ -1,14 +1,13 @@
 #pragma once
-/// What lights a frame, as data: a View without one has three lights of a portrait that follow its camera.
+/// What lights a frame, as data: a Scene without one has three lights of a portrait that follow the camera.
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/face.h"
 #include "rig/light/spherical_harmonics.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -16,17 +15,18 @@ enum class LightKind : std::uint8_t { directional, point, spot };
 
 struct LightSource {
     LightKind kind = LightKind::directional;
-    glm::vec3 position_world{0};          ///< of a point or a spot
-    glm::vec3 direction_world{0, 0, -1};  ///< the way it shines, any length above 0; of a directional light or a spot
+    DVec3 position_world{0};         ///< of a point or a spot
+    Vec3 direction_world{0, 0, -1};  ///< the way it shines, any length above 0; of a directional light or a spot
     /// Irradiance on a facing surface / pi, so that white reflects this radiance; 0 or more. Of a point or a spot at
     /// `reference_distance`.
-    glm::vec3 radiance_linear{1};
+    Vec3 radiance_linear{1};
     float reference_distance = 1;  ///< world units, above 0
     float inner_radians = 0.4F;    ///< half angle of a spot's full light, below `outer_radians`
     float outer_radians = 0.5F;    ///< half angle of a spot's end, above 0 and below pi / 2
     bool casts_shadow = true;      ///< and shines through thin parts
-    /// Goes round the upright axis through Lighting::orbit_centre_world once in so many seconds of View::time_seconds,
-    /// from where it stands at 0, past the face's front to its left (below 0: to its right). 0: it stands.
+    /// Goes round the upright axis through Lighting::orbit_centre_world once in so many seconds of
+    /// ViewFrame::time_seconds, from where it stands at 0, past the face's front to its left (below 0: to its right).
+    /// 0: it stands.
     float orbit_seconds = 0;
     /// Of what shines, for the width of its shadows' edges: radius of a point or
     /// a spot in world units, half the angle in radians that a directional light
@@ -51,11 +51,12 @@ struct Environment {
 Result<std::shared_ptr<const Environment>> make_environment(const Image& image);
 
 struct Lighting {
-    /// At most 8 (BLUSH_MOST_LIGHTS) are used; one that is dark, not finite or without a direction is left out.
+    /// As many as a scene has. One that is dark, not finite or without a direction is left out; each character is lit
+    /// by those that reach it (CharacterReport::lights).
     std::vector<LightSource> lights;
-    glm::vec3 sky_radiance_linear{0}, ground_radiance_linear{0};  ///< ambient; not used with an environment
+    Vec3 sky_radiance_linear{0}, ground_radiance_linear{0};  ///< ambient; not used with an environment
     std::shared_ptr<const Environment> environment;
-    glm::vec3 orbit_centre_world{0};
+    DVec3 orbit_centre_world{0};
     float environment_factor = 1, environment_turn_radians = 0;
 };
 

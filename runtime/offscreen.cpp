@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/frame/device_state.h"
 #include "runtime/gl/object.h"
 #include "runtime/gl/state_guard.h"
 
@@ -9,7 +10,6 @@ namespace blush {
 
 struct Offscreen::State {
     explicit State(Device on) : device(std::move(on)) {}
-    ~State() { device.make_current(); }  // the GL objects below must go in their own context
     Device device;
     std::uint32_t width = 0, height = 0;
     Output output = Output::display_srgb;
@@ -17,10 +17,7 @@ struct Offscreen::State {
     gl::Framebuffer framebuffer;
 };
 
-Offscreen::Offscreen(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Offscreen::Offscreen(Offscreen&&) noexcept = default;
-Offscreen& Offscreen::operator=(Offscreen&&) noexcept = default;
-Offscreen::~Offscreen() = default;
+Offscreen::Offscreen(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
 Result<Offscreen> Offscreen::create(const Device& device, std::uint32_t width, std::uint32_t height, Output output) {
     const auto largest = static_cast<std::uint32_t>(device.info().largest_texture_side_texels);
@@ -29,7 +26,7 @@ Result<Offscreen> Offscreen::create(const Device& device, std::uint32_t width, s
                      std::to_string(largest) + " pixels"};
     }
     device.make_current();
-    auto state = std::make_unique<State>(device);
+    auto state = on_device(new State(device));
     state->width = width;
     state->height = height;
     state->output = output;
@@ -41,8 +38,8 @@ Result<Offscreen> Offscreen::create(const Device& device, std::uint32_t width, s
     return Offscreen(std::move(state));
 }
 
-View Offscreen::view() const {
-    View view;
+ViewFrame Offscreen::view() const {
+    ViewFrame view;
     view.width = state_->width;
     view.height = state_->height;
     view.framebuffer = state_->framebuffer.name();

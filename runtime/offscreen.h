@@ -16,20 +16,16 @@ public:
     /// 8-bit for display_srgb, half float for linear_hdr. Error: a side of 0 or beyond the device's limit.
     static Result<Offscreen> create(const Device& device, std::uint32_t width, std::uint32_t height, Output output);
 
-    Offscreen(Offscreen&&) noexcept;
-    Offscreen& operator=(Offscreen&&) noexcept;
-    ~Offscreen();
-
-    /// A view of this framebuffer; the camera is still to be set.
-    View view() const;
+    /// What a frame into this framebuffer is drawn for; the camera is still to be set.
+    ViewFrame view() const;
 
     /// RGBA, rows from the top: bytes of display_srgb, floats of linear_hdr.
     Image read() const;
 
 private:
     struct State;
-    explicit Offscreen(std::unique_ptr<State> state);
-    std::unique_ptr<State> state_;
+    explicit Offscreen(std::shared_ptr<State> state);
+    std::shared_ptr<State> state_;
 };
 
 }  // namespace blush

@@ -82,6 +82,39 @@ Status EffectSettings::set(std::string_view setting_name, std::string_view text)
     return Error{"no setting is called \"" + std::string(setting_name) + "\" (there are: " + known_settings + ")"};
 }
 
+std::string_view to_string(SettingOwner owner) {
+    switch (owner) {
+        case SettingOwner::character:
+            return "character";
+        case SettingOwner::scene:
+            return "scene";
+        case SettingOwner::view:
+            break;
+    }
+    return "view";
+}
+
+Result<SettingOwner> EffectSettings::owner_of(std::string_view setting_name) {
+    std::optional<SettingOwner> owner;
+    std::string known;
+    each_setting([&](const Effect& effect, const Setting& setting, std::size_t) {
+        const std::string full = std::string(effect.name) + "." + std::string(setting.name);
+        known += (known.empty() ? "" : ", ") + full;
+        if (full == setting_name) owner = setting.owner.value_or(effect.owner);
+        return owner.has_value();
+    });
+    if (owner) return *owner;
+    return Error{"no setting is called \"" + std::string(setting_name) + "\" (there are: " + known + ")"};
+}
+
+Status EffectSettings::set(std::string_view setting, std::string_view value, SettingOwner owner) {
+    const Result<SettingOwner> holder = owner_of(setting);
+    if (!holder) return holder.error();
+    if (*holder == owner) return set(setting, value);
+    return Error{"setting " + std::string(setting) + " is the " + std::string(to_string(*holder)) + "'s, not the " +
+                 std::string(to_string(owner)) + "'s"};
+}
+
 double EffectSettings::value(std::string_view effect_name, std::string_view setting_name) const {
     double found = 0;
     [[maybe_unused]] bool exists = false;

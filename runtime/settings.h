@@ -10,6 +10,10 @@
 
 namespace blush {
 
+/// Who holds a setting: it is set on that object, and each may have its own.
+enum class SettingOwner : std::uint8_t { character, scene, view };
+std::string_view to_string(SettingOwner owner);
+
 class EffectSettings {
 public:
     EffectSettings();  ///< every setting at its default
@@ -17,6 +21,10 @@ public:
     /// value: the name of a choice, or a number. Error: no such setting, no such choice (the message lists what there
     /// is), not a finite number or one outside the setting's range.
     Status set(std::string_view setting, std::string_view value);
+    /// The same where the setting is that owner's; error also where it is another's.
+    Status set(std::string_view setting, std::string_view value, SettingOwner owner);
+    /// Error: no such setting.
+    static Result<SettingOwner> owner_of(std::string_view setting);
     /// Index of the choice made. The setting must exist.
     std::uint8_t choice(std::string_view effect, std::string_view setting) const;
 

@@ -2,8 +2,9 @@
 // through runtime/gl/shared_blocks.h). No vec3 and no bool in a block, so that std140, std430 and C++ agree; a check at
 // program load compares the driver's offsets with offsetof.
 
-// Lights of a frame, at most: the shader walks as many as there are.
-#define BLUSH_MOST_LIGHTS 8
+// Lights that reach one character, at most: the shader walks as many as there are. With 64 the block stays below the
+// 16 KiB that GL guarantees.
+#define BLUSH_MOST_LIGHTS 64
 // Taps of the separable diffusion kernel without its centre, at most.
 #define BLUSH_MOST_KERNEL_TAPS 32
 // Of the skin, at any depth: keeps a camera inside the skin finite. rig/light/scatter_image.h has the same.
@@ -52,6 +53,11 @@
 
 // Storage block of the joints.
 #define BLUSH_JOINTS_BINDING 0
+
+// Storage block of the diffusion of several characters' skins, and the characters that it tells apart: further ones take
+// their numbers anew from the first.
+#define BLUSH_SCATTER_BINDING 0
+#define BLUSH_MOST_SCATTERING 256
 
 // Storage block of the occlusion coefficients, bound while shading.
 #define BLUSH_OCCLUSION_BINDING 3
@@ -118,18 +124,22 @@
 #define BLUSH_SKIN_DEPTH_UNIT 1
 #define BLUSH_SKIN_ALBEDO_UNIT 2
 
+// All that shading calls "world" has the world's axes and units, and its origin in the middle of the head that is shaded:
+// floats are finest there, wherever in the world it stands. C++ composes it in double precision.
 struct Light {
     vec4 position_world;   // xyz: its place (w 1), or the unit vector towards it (w 0)
     vec4 radiance_linear;  // rgb: irradiance on a facing surface / pi, so that white reflects this radiance;
                            // w: square of the distance at which a light with a place has it
     vec4 cone_world;       // xyz: unit vector that a spot shines along; w: cosine of its rim, or -2 without a cone
-    vec4 shadow;           // x: shadow map or -1; y: cosine where a spot begins to fade; z: texel at the map's depth 1
+    vec4 shadow;           // x: 1 with a shadow map, or -1; y: cosine where a spot begins to fade; z: texel at the map's depth 1
                            // (perspective) or anywhere, world units; w: 1 when the map is a perspective
     vec4 shadow_depth;     // x, y: near and far of the map, world units; z: size: radius of a light with a place, world
                            // units, or tangent of half the angle of a directional one; w unused
+    vec4 shadow_tile;      // x, y: lower left corner of the map in the texture of all maps, z: its side, texels; w unused
     mat4 shadow_from_world;  // clip space of the shadow map
 };
 
+// One character in one picture.
 BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     mat4 clip_from_world;
     vec4 camera_world;  // xyz: position; w unused
@@ -152,7 +162,7 @@ BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     mat4 world_from_lids;
     ivec4 eye_data;               // x: 1 when the eyes are known; yz: vertices on the eyes' poles; w: 1 with lid_points
     ivec4 lid_points[BLUSH_LID_POINTS];  // vertices: upper and lower lid of the first eye, of the second
-    ivec4 counts;                 // x: lights; yzw unused
+    ivec4 counts;                 // x: lights; y: number of the character, from 1; zw unused
     ivec4 occlusion_poses;              // x: poses of the occlusion coefficients; y: vertices of each; z: 1 with light that
                                   // surfaces send on; w unused
     vec4 occlusion_weights[2];    // of those poses
@@ -160,7 +170,7 @@ BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
 };
 
 BLUSH_UNIFORM_BLOCK(DrawBlock, BLUSH_DRAW_BINDING) {
-    mat4 world_from_mesh;
+    mat4 world_from_mesh;  // to the world's axes, with the origin in the middle of the head
     mat4 world_normal_from_mesh;  // inverse transpose of the upper left 3x3
 };
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "runtime/character.h"
 #include "runtime/device.h"
+#include "runtime/measure/portrait.h"
 #include "runtime/offscreen.h"
 #include "tests/test_faces.h"
 
@@ -32,9 +32,9 @@ protected:
         }
         return *std::move(device);
     }
-    Character make_character(Face face) const { return make_character(device_, std::move(face)); }
-    static Character make_character(const Device& device, Face face) {
-        Result<Character> character = Character::create(device, std::move(face));
+    Portrait make_character(Face face) const { return make_character(device_, std::move(face)); }
+    static Portrait make_character(const Device& device, Face face) {
+        Result<Portrait> character = Portrait::create(device, std::move(face));
         if (!character) {
             ADD_FAILURE() << character.error().message;
             std::abort();
@@ -53,13 +53,13 @@ protected:
     Device device_;
 };
 
-inline void set_weights(Character& character, const std::vector<float>& weights) {
+inline void set_weights(Portrait& character, const std::vector<float>& weights) {
     std::ranges::copy(weights, character.controls().begin());
 }
 
 /// A view of `offscreen` that frames the character from the front, with every pass scanned for what is not finite.
-inline View framed_view(const Character& character, const Offscreen& offscreen) {
-    View view = offscreen.view();
+inline ViewFrame framed_view(const Portrait& character, const Offscreen& offscreen) {
+    ViewFrame view = offscreen.view();
     const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
     view.camera = character.framing(aspect).camera(aspect);
     view.check_finite = true;
@@ -67,12 +67,12 @@ inline View framed_view(const Character& character, const Offscreen& offscreen) 
 }
 
 /// Draws and reads back; fails where a pass wrote what is not finite.
-inline Image draw(Character& character, const Offscreen& offscreen, const View& view) {
+inline Image draw(Portrait& character, const Offscreen& offscreen, const ViewFrame& view) {
     const FrameReport& report = character.draw(view);
     if (report.not_finite) ADD_FAILURE() << report.not_finite->sentence();
     return offscreen.read();
 }
-inline Image draw(Character& character, const Offscreen& offscreen) {
+inline Image draw(Portrait& character, const Offscreen& offscreen) {
     return draw(character, offscreen, framed_view(character, offscreen));
 }
 

@@ -11,7 +11,7 @@
 namespace blush {
 
 /// Convex polygon, corners in order, pixels: x to the right, y down, pixel (0, 0) covers the square from 0 to 1.
-using Polygon = std::vector<glm::dvec2>;
+using Polygon = std::vector<DVec2>;
 
 struct CoverageShape {
     std::string family;             ///< "half planes", "wedges", "corners", "thin lines"
@@ -33,7 +33,7 @@ Grid<double> exact_coverage(const CoverageShape& shape);
 
 /// What a renderer without antialiasing draws: white where the sample at the pixel's centre plus `offset_pixels` is
 /// inside. Linear light, alpha 1.
-Pixels sampled(const CoverageShape& shape, glm::dvec2 offset_pixels = {});
+Pixels sampled(const CoverageShape& shape, DVec2 offset_pixels = {});
 
 /// Mean of side x side samples a pixel, on a regular grid.
 Grid<double> supersampled(const CoverageShape& shape, int side);

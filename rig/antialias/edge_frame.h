@@ -32,18 +32,17 @@ public:
     bool left(int i, int j) const { return edge(origin_ + i * along_i_ + j * along_j_ + left_shift_, !transposed_); }
 
 private:
-    EdgeFrame(const EdgeMap& edges, glm::ivec2 origin, glm::ivec2 along_i, glm::ivec2 along_j, glm::ivec2 left_shift,
-              bool transposed)
+    EdgeFrame(const EdgeMap& edges, IVec2 origin, IVec2 along_i, IVec2 along_j, IVec2 left_shift, bool transposed)
         : edges_(edges),
           origin_(origin),
           along_i_(along_i),
           along_j_(along_j),
           left_shift_(left_shift),
           transposed_(transposed) {}
-    bool edge(glm::ivec2 p, bool left) const { return left ? edges_.left(p.x, p.y) : edges_.upper(p.x, p.y); }
+    bool edge(IVec2 p, bool left) const { return left ? edges_.left(p.x, p.y) : edges_.upper(p.x, p.y); }
 
     const EdgeMap& edges_;
-    glm::ivec2 origin_, along_i_, along_j_, left_shift_;
+    IVec2 origin_, along_i_, along_j_, left_shift_;
     bool transposed_;
 };
 

@@ -10,6 +10,8 @@
 #include <array>
 #include <cmath>
 
+#include <glm/glm.hpp>
+
 namespace blush {
 namespace {
 

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 
-#include <glm/glm.hpp>
-
 namespace blush {
 
 /// Shares of the two pixels beside an edge that take the other's colour, 0 to 1.

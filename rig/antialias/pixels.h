@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/glm.hpp>
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -32,12 +32,12 @@ private:
     }
 };
 
-using Pixels = Grid<glm::vec4>;       ///< RGBA, as PictureMeaning says
-using DepthPixels = Grid<float>;      ///< window depth
-using WeightMap = Grid<glm::u8vec4>;  ///< near and far of the upper edge, near and far of the left edge, of 255
+using Pixels = Grid<Vec4>;        ///< RGBA, as PictureMeaning says
+using DepthPixels = Grid<float>;  ///< window depth
+using WeightMap = Grid<U8Vec4>;   ///< near and far of the upper edge, near and far of the left edge, of 255
 
 /// Edges at the left and upper boundary of each pixel. There are none outside the picture, nor on its border.
-struct EdgeMap : Grid<glm::u8vec2> {
+struct EdgeMap : Grid<U8Vec2> {
     using Grid::Grid;
     bool left(int x, int y) const { return contains(x, y) && at(x, y).x != 0; }
     bool upper(int x, int y) const { return contains(x, y) && at(x, y).y != 0; }

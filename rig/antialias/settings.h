@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include <glm/glm.hpp>
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -93,10 +93,10 @@ SmaaSettings smaa_preset(SmaaPreset preset);
 
 /// Slices of the area table (smaa_tables.h), one for each direction of line: x of horizontal lines, y of vertical
 /// ones, z of diagonals towards the upper right, w of those towards the lower right.
-using SubsampleSlices = glm::ivec4;
+using SubsampleSlices = IVec4;
 
 /// The slices for a picture whose samples stand `offset_pixels` from the pixel centres (x to the right, y the way rows
 /// are counted), each coordinate rounded to the nearest offset in the table. (jimenez-2012, 10.4.3)
-SubsampleSlices subsample_slices(glm::vec2 offset_pixels);
+SubsampleSlices subsample_slices(Vec2 offset_pixels);
 
 }  // namespace blush

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rig/antialias/line_areas.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -24,7 +25,7 @@ struct AreaImage {
     int width = 0, height = 0;
     std::vector<std::uint8_t> near_far;  ///< 2 * width * height
 
-    glm::u8vec2 at(int x, int y) const {
+    U8Vec2 at(int x, int y) const {
         const auto i =
             2 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
         return {near_far[i], near_far[i + 1]};

@@ -37,7 +37,7 @@ struct AlbedoOptions {
 struct AlbedoReport {
     double skin_share = 0;  ///< of all texels, 0 to 1
     float typical_melanin = 0, typical_hemoglobin = 0;
-    glm::vec3 white_linear{1};    ///< the picture's colour of a perfect white
+    Vec3 white_linear{1};         ///< the picture's colour of a perfect white
     float median_difference = 0;  ///< CIEDE2000 between the texture and white * shading * table
     float percentile_99_difference = 0;
     float median_unshaded_difference = 0;  ///< the same between the texture and white * table

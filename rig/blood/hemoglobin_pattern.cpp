@@ -20,7 +20,7 @@ float share_at(const SoftEllipse& region, glm::vec2 place) {
 
 }  // namespace
 
-const std::vector<std::string> hemoglobin_pattern_names = {
+const std::array<std::string_view, 11> hemoglobin_pattern_names = {
     "joy", "sadness", "anger", "fear", "disgust", "surprise", "exercise", "alcohol", "blush", "pallor", "cold"};
 
 RelativeChange change_at(const HemoglobinPattern& pattern, glm::vec2 place) {

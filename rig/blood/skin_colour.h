@@ -12,9 +12,8 @@
 #include <array>
 #include <cstdint>
 
-#include <glm/glm.hpp>
-
 #include "rig/blood/spectra.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -60,6 +59,6 @@ double skin_reflectance_by_photons(const SkinOptics& optics, std::uint32_t photo
 std::array<double, spectral_samples> skin_reflectance(const SkinChromophores& chromophores);
 
 /// Linear sRGB under D65. Very saturated skin leaves sRGB's gamut: a component can be slightly negative.
-glm::dvec3 skin_colour_linear(const SkinChromophores& chromophores);
+DVec3 skin_colour_linear(const SkinChromophores& chromophores);
 
 }  // namespace blush

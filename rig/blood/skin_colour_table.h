@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/blood/skin_colour.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -25,17 +24,17 @@ public:
     std::uint32_t melanin_nodes() const { return melanin_nodes_; }
     std::uint32_t hemoglobin_nodes() const { return hemoglobin_nodes_; }
     /// Linear sRGB, rows of constant hemoglobin, melanin running fastest: ready for a texture with u to the right.
-    std::span<const glm::vec3> texels() const { return texels_; }
+    std::span<const Vec3> texels() const { return texels_; }
 
     /// Volume fractions to linear sRGB by bilinear interpolation between the four nodes around. Fractions outside
     /// 0 to largest_melanin and largest_hemoglobin count as the nearest end, NaN as 0.
-    glm::vec3 colour_linear(float melanin, float hemoglobin) const;
+    Vec3 colour_linear(float melanin, float hemoglobin) const;
     /// The same at table coordinates, 0 at the first node to 1 at the last.
-    glm::vec3 colour_linear_at(glm::vec2 uv) const;
+    Vec3 colour_linear_at(Vec2 uv) const;
 
 private:
     std::uint32_t melanin_nodes_, hemoglobin_nodes_;
-    std::vector<glm::vec3> texels_;
+    std::vector<Vec3> texels_;
 };
 
 /// Where a volume fraction stands on its axis, 0 to 1: cbrt(fraction / largest) (7.7). Clamped; NaN counts as 0.

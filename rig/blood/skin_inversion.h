@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/blood/skin_colour_table.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -30,17 +29,17 @@ class SkinInverter {
 public:
     /// `white_linear`: the colour that a perfect white has in the picture (exposure and white balance), above 0.
     /// `lightness_weight`: 0 to 1. The table is copied.
-    SkinInverter(const SkinColourTable& table, const glm::vec3& white_linear, float lightness_weight);
+    SkinInverter(const SkinColourTable& table, const Vec3& white_linear, float lightness_weight);
 
     /// Any input; what is not finite counts as black, and black as the darkest colour told apart (density_floor).
-    SkinReading read(const glm::vec3& colour_linear) const;
+    SkinReading read(const Vec3& colour_linear) const;
 
 private:
-    glm::vec3 density_at(glm::vec2 uv) const;
+    Vec3 density_at(Vec2 uv) const;
 
     std::uint32_t nodes_;
-    std::vector<glm::vec3> densities_;  ///< (lightness, redness, yellowness), nodes_ * nodes_
-    glm::vec3 white_;
+    std::vector<Vec3> densities_;  ///< (lightness, redness, yellowness), nodes_ * nodes_
+    Vec3 white_;
     float lightness_weight_;
 };
 
@@ -48,6 +47,6 @@ private:
 inline constexpr float density_floor = 0.5F / 255 / 12.92F;
 
 /// (lightness, redness, yellowness) of a linear colour, in density.
-glm::vec3 skin_density(const glm::vec3& colour_linear);
+Vec3 skin_density(const Vec3& colour_linear);
 
 }  // namespace blush

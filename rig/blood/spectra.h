@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include <glm/glm.hpp>
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -26,6 +26,6 @@ extern const std::array<SpectralSample, spectral_samples> spectra;
 
 /// A reflectance, one value for each of `spectra`, under D65 as linear sRGB. A reflectance of 1 everywhere is exactly
 /// white, (1, 1, 1) up to rounding. Components can be negative or above 1 where a colour lies outside sRGB's gamut.
-glm::dvec3 srgb_linear_from_reflectance(const std::array<double, spectral_samples>& reflectance);
+DVec3 srgb_linear_from_reflectance(const std::array<double, spectral_samples>& reflectance);
 
 }  // namespace blush

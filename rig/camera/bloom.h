@@ -1,9 +1,8 @@
 #pragma once
 /// Bloom in double precision: the twin of shaders/bloom_*.frag.
 
-#include <glm/glm.hpp>
-
 #include "rig/map.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -15,7 +14,6 @@ std::uint32_t bloom_levels(double radius_of_height, std::uint32_t width, std::ui
 /// Takes the share `strength` of what is brighter than `threshold` (by its largest channel) away from each pixel and
 /// spreads it. All light stays, but for what borders and odd sides do to it; a constant image keeps every value.
 /// Radiance that is not a number counts as 0, and 60000 is the most.
-Map<glm::dvec3> bloomed(const Map<glm::dvec3>& radiance_linear, double strength, double threshold,
-                        std::uint32_t levels);
+Map<DVec3> bloomed(const Map<DVec3>& radiance_linear, double strength, double threshold, std::uint32_t levels);
 
 }  // namespace blush

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/map.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -29,12 +28,12 @@ struct BlurRadius {
 BlurRadius blur_radius(const ThinLens& lens, double height_pixels, double largest_pixels);
 
 /// Offsets of a gather in units of its radius, the centre first; each stands for the same area (Vogel 1979).
-std::vector<glm::vec2> blur_taps(std::uint32_t count);
+std::vector<Vec2> blur_taps(std::uint32_t count);
 
 /// Gathers what the circles of the pixels around cover. What is behind the focus or in it lies in one layer, and never
 /// spreads over what is nearer to it than itself; what is in front lies in another, over the first.
 /// tile_pixels: side of the tiles in which the largest radius in front is looked for, at least the largest radius.
-Map<glm::dvec3> defocused(const Map<glm::dvec3>& radiance_linear, const Map<float>& radius_pixels,
-                          std::span<const glm::vec2> taps, std::uint32_t tile_pixels);
+Map<DVec3> defocused(const Map<DVec3>& radiance_linear, const Map<float>& radius_pixels, std::span<const Vec2> taps,
+                     std::uint32_t tile_pixels);
 
 }  // namespace blush

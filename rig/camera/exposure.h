@@ -1,9 +1,8 @@
 #pragma once
 /// Automatic exposure in double precision: the twin of shaders/exposure_*.frag.
 
-#include <glm/glm.hpp>
-
 #include "rig/map.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -14,7 +13,7 @@ enum class Metering : std::uint8_t {
 
 /// Log2 of the log-average luminance of `radiance_linear` (Reinhard et al. 2002, eq. 1; jimenez-2012, 8.3, has the same
 /// measure). Pixels that are not finite do not count; what is below 0 counts as 0. Black is 1e-4.
-double log2_average_luminance(const Map<glm::dvec3>& radiance_linear, Metering metering);
+double log2_average_luminance(const Map<DVec3>& radiance_linear, Metering metering);
 
 /// Log2 of the factor that brings the average to `key`, `stops` brighter, within +-`range_stops`.
 double log2_exposure(double log2_average, double key, double stops, double range_stops);

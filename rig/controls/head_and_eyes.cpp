@@ -5,38 +5,41 @@
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "rig/names.h"
 
 namespace blush {
 namespace {
 
-glm::mat4 matrix_of(const Transform& t) {
-    glm::mat4 matrix = glm::mat4_cast(t.rotation);
-    matrix[0] *= t.scale.x;
-    matrix[1] *= t.scale.y;
-    matrix[2] *= t.scale.z;
-    matrix[3] = glm::vec4(t.translation, 1);
+glm::dmat4 matrix_of(const Transform& t) {
+    glm::dmat4 matrix =
+        glm::mat4_cast(glm::dquat(static_cast<double>(t.rotation.w), static_cast<double>(t.rotation.x),
+                                  static_cast<double>(t.rotation.y), static_cast<double>(t.rotation.z)));
+    matrix[0] *= static_cast<double>(t.scale.x);
+    matrix[1] *= static_cast<double>(t.scale.y);
+    matrix[2] *= static_cast<double>(t.scale.z);
+    matrix[3] = glm::dvec4(t.translation, 1);
     return matrix;
 }
 
-glm::mat4 turn_of(const Angles& angles) {
-    const glm::mat4 yaw = glm::rotate(glm::mat4(1), angles.yaw_radians, glm::vec3(0, 1, 0));
-    const glm::mat4 pitch = glm::rotate(glm::mat4(1), angles.pitch_radians, glm::vec3(1, 0, 0));
-    const glm::mat4 roll = glm::rotate(glm::mat4(1), angles.roll_radians, glm::vec3(0, 0, 1));
-    return yaw * pitch * roll;
+glm::dmat4 turn_of(const Angles& angles) {
+    const auto about = [](float radians, glm::dvec3 axis) {
+        return glm::rotate(glm::dmat4(1), static_cast<double>(radians), axis);
+    };
+    return about(angles.yaw_radians, {0, 1, 0}) * about(angles.pitch_radians, {1, 0, 0}) *
+           about(angles.roll_radians, {0, 0, 1});
 }
 
 bool still(const Angles& angles) {
     return angles.yaw_radians == 0 && angles.pitch_radians == 0 && angles.roll_radians == 0;
 }
 
-/// Turns a node about a point, with axes of the world. Left out where nothing turns, so that rest keeps its bits.
-void turn(glm::mat4& world_from_node, const Pivot& pivot, const Angles& angles) {
+/// Turns a node about a point, with axes of the face. Left out where nothing turns, so that rest keeps its bits.
+void turn(glm::dmat4& placed, const Pivot& pivot, const Angles& angles) {
     if (still(angles)) return;
-    const auto centre = glm::vec3(world_from_node * glm::vec4(pivot.point_node, 1));
-    world_from_node = glm::translate(glm::mat4(1), centre) * turn_of(angles) * glm::translate(glm::mat4(1), -centre) *
-                      world_from_node;
+    const auto centre = glm::dvec3(placed * glm::dvec4(pivot.point_node, 1));
+    placed = glm::translate(glm::dmat4(1), centre) * turn_of(angles) * glm::translate(glm::dmat4(1), -centre) * placed;
 }
 
 /// For each node the nodes of its subtree that draw something; nodes are ordered parents first.
@@ -68,12 +71,9 @@ glm::vec3 finite_or_origin(glm::vec3 point) {
     return finite ? point : glm::vec3(0);
 }
 
-std::vector<glm::mat4> rest_world(const Face& face) {
-    Pose pose;
-    for (const Node& node : face.nodes) pose.nodes.push_back(node.rest);
-    std::vector<glm::mat4> world(face.nodes.size());
-    world_from_nodes(face, pose, {}, world);
-    return world;
+std::vector<glm::mat4> rest_matrices(const Face& face) {
+    const std::vector<glm::dmat4> placed = rest_placement(face);
+    return {placed.begin(), placed.end()};
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::vector<glm::mat4> rest_world(const Face& face) {
 HeadAndEyes find_head_and_eyes(const Face& face) {
     HeadAndEyes found;
     const auto below = drawing_nodes_below(face);
-    const std::vector<glm::mat4> world = rest_world(face);
+    const std::vector<glm::mat4> world = rest_matrices(face);
     const auto drawn =
         static_cast<std::size_t>(std::ranges::count_if(face.nodes, [](const Node& node) { return node.mesh >= 0; }));
     const auto bounds_in = [&](std::size_t root) {
@@ -128,28 +128,40 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
     return found;
 }
 
-void world_from_nodes(const Face& face, const Pose& pose, const HeadAndEyes& pivots, std::span<glm::mat4> world) {
+void place_nodes(const Face& face, const Pose& pose, const HeadAndEyes& pivots, std::span<glm::dmat4> placed) {
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
         const Node& node = face.nodes[n];
-        world[n] = node.matrix ? *node.matrix : matrix_of(pose.nodes[n]);
-        if (node.parent >= 0) world[n] = world[static_cast<std::size_t>(node.parent)] * world[n];
+        placed[n] = node.matrix ? glm::dmat4(*node.matrix) : matrix_of(pose.nodes[n]);
+        if (node.parent >= 0) placed[n] = placed[static_cast<std::size_t>(node.parent)] * placed[n];
         const auto index = static_cast<std::int32_t>(n);
-        if (index == pivots.head.node) turn(world[n], pivots.head, pose.head);
-        if (index == pivots.left_eye.node) turn(world[n], pivots.left_eye, pose.left_eye);
-        if (index == pivots.right_eye.node) turn(world[n], pivots.right_eye, pose.right_eye);
+        if (index == pivots.head.node) turn(placed[n], pivots.head, pose.head);
+        if (index == pivots.left_eye.node) turn(placed[n], pivots.left_eye, pose.left_eye);
+        if (index == pivots.right_eye.node) turn(placed[n], pivots.right_eye, pose.right_eye);
     }
 }
 
-void skinned_from_meshes(const Face& face, std::span<const glm::mat4> world, std::span<glm::mat4> joints) {
+std::vector<glm::dmat4> rest_placement(const Face& face) {
+    Pose pose;
+    for (const Node& node : face.nodes) pose.nodes.push_back(node.rest);
+    std::vector<glm::dmat4> placed(face.nodes.size());
+    place_nodes(face, pose, {}, placed);
+    return placed;
+}
+
+void skinned_from_meshes(const Face& face, std::span<const glm::dmat4> placed, glm::dvec3 origin,
+                         std::span<glm::mat4> joints) {
     std::size_t at = 0;
     for (const Skin& skin : face.skins) {
-        for (std::size_t j = 0; j < skin.joints.size(); ++j)
-            joints[at++] = world[skin.joints[j]] * skin.joint_from_mesh[j];
+        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+            glm::dmat4 joint = placed[skin.joints[j]] * glm::dmat4(skin.joint_from_mesh[j]);
+            joint[3] -= glm::dvec4(origin, 0);
+            joints[at++] = glm::mat4(joint);
+        }
     }
 }
 
 Bounds moving_bounds(const Face& face) {
-    const std::vector<glm::mat4> world = rest_world(face);
+    const std::vector<glm::mat4> world = rest_matrices(face);
     Bounds bounds;
     std::vector<std::int32_t> node_of_mesh(face.meshes.size(), -1);
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {

@@ -7,13 +7,14 @@
 
 #include "rig/controls/rig.h"
 #include "rig/face.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
 /// A node that angles turn about a point.
 struct Pivot {
-    std::int32_t node = -1;   ///< -1: the face has none
-    glm::vec3 point_node{0};  ///< in the node's own space, at rest
+    std::int32_t node = -1;  ///< -1: the face has none
+    Vec3 point_node{0};      ///< in the node's own space, at rest
 };
 
 struct HeadAndEyes {
@@ -28,19 +29,25 @@ struct HeadAndEyes {
 /// head that is modelled down to its neck).
 HeadAndEyes find_head_and_eyes(const Face& face);
 
-/// world_from_node of every node, parents first. `world` has one entry a node. No allocation.
-void world_from_nodes(const Face& face, const Pose& pose, const HeadAndEyes& pivots, std::span<glm::mat4> world);
+/// face_from_node of every node, parents first: from a node's space to that of the face's file. Composed in double
+/// precision, so that a file whose nodes stand far out places its parts beside one another. `placed` has one entry a
+/// node. No allocation.
+void place_nodes(const Face& face, const Pose& pose, const HeadAndEyes& pivots, std::span<DMat4> placed);
 
 /// skinned_from_mesh of every joint of every skin, skins one after the other, for StreamOut::skin and skin(): the
-/// mesh node's own place cancels (glTF 2.0, 3.7.3.3), so skinned vertices are in world space.
-void skinned_from_meshes(const Face& face, std::span<const glm::mat4> world, std::span<glm::mat4> joints);
+/// mesh node's own place cancels (glTF 2.0, 3.7.3.3), so skinned vertices are in the face's space, here less `origin`
+/// (where the face stands in its file), so that their floats are fine.
+void skinned_from_meshes(const Face& face, std::span<const DMat4> placed, DVec3 origin, std::span<Mat4> joints);
+
+/// The same of the face at rest, without angles.
+std::vector<DMat4> rest_placement(const Face& face);
 
 struct Bounds {
-    glm::vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
+    Vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
     bool empty() const { return !(low.x <= high.x); }
-    glm::vec3 centre() const { return 0.5F * low + 0.5F * high; }
-    glm::vec3 size() const { return high - low; }
-    void add(glm::vec3 point) {
+    Vec3 centre() const { return 0.5F * low + 0.5F * high; }
+    Vec3 size() const { return high - low; }
+    void add(Vec3 point) {
         low = glm::min(low, point);
         high = glm::max(high, point);
     }

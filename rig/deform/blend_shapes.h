@@ -9,9 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/face.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -28,8 +27,8 @@ void find_active(std::span<const float> weights, std::vector<ActiveTarget>& acti
 
 /// Adds the active targets to rest attributes that `positions`, `normals` and `tangents` already hold (one entry a
 /// vertex of the face). Normals and tangents come out unnormalised.
-void add_targets(const Face& face, std::span<const ActiveTarget> active, std::span<glm::vec3> positions,
-                 std::span<glm::vec3> normals, std::span<glm::vec4> tangents);
+void add_targets(const Face& face, std::span<const ActiveTarget> active, std::span<Vec3> positions,
+                 std::span<Vec3> normals, std::span<Vec4> tangents);
 
 /// Vertices that a SparseBlock covers: one bit each of a 32-bit mask.
 inline constexpr std::uint32_t block_vertices = 32;

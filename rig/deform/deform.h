@@ -14,9 +14,9 @@ namespace blush {
 
 /// Attributes of a deformed face, one entry a vertex of the face, in mesh-local space.
 struct DeformedSurface {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;
-    std::vector<glm::vec4> tangents;
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<Vec4> tangents;
 };
 
 /// One face on one thread, by the vertex path (rig/deform/vertex_path.h).
@@ -43,8 +43,7 @@ DeformedSurface deform_plain(const Face& face, const NormalTopology& topology, s
 
 /// Skins positions and directions in place, after the morph (glTF 2.0, 3.7.3.3): `mesh_to_world` of each joint is
 /// world_from_joint * joint_from_mesh. Vertices without joint weights stay as they are.
-void skin(std::span<const glm::u16vec4> joints, std::span<const glm::vec4> joint_weights,
-          std::span<const glm::mat4> skinned_from_mesh, std::span<glm::vec3> positions, std::span<glm::vec3> normals,
-          std::span<glm::vec4> tangents);
+void skin(std::span<const U16Vec4> joints, std::span<const Vec4> joint_weights, std::span<const Mat4> skinned_from_mesh,
+          std::span<Vec3> positions, std::span<Vec3> normals, std::span<Vec4> tangents);
 
 }  // namespace blush

@@ -4,15 +4,14 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/face.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
 struct ExactSurface {
-    std::vector<glm::dvec3> positions;
-    std::vector<glm::dvec3> normals;  ///< unit length
+    std::vector<DVec3> positions;
+    std::vector<DVec3> normals;  ///< unit length
 };
 
 /// Positions are rest + sum of weight * delta. Every normal of a primitive that targets move is the rest normal turned

@@ -5,21 +5,21 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
+#include "rig/vectors.h"
 
 namespace blush {
 
 /// A unit vector at right angles to `unit`. Never fails: a zero or non-finite `unit` gives (1, 0, 0).
-glm::vec3 any_perpendicular(glm::vec3 unit);
+Vec3 any_perpendicular(Vec3 unit);
 
 /// For each vertex the lowest-numbered vertex at the same position: file formats split vertices at texture seams.
-std::vector<std::uint32_t> weld(std::span<const glm::vec3> positions);
+std::vector<std::uint32_t> weld(std::span<const Vec3> positions);
 
 /// Smooth vertex normals: the sum of the normals of the triangles around a vertex, each weighted by its angle there (as
 /// in rig/deform/surface_normals.h), where vertices at the same position count as one vertex (file formats split
 /// vertices at texture seams). Unit length always; a vertex that no triangle of positive area touches gets (0, 0, 1).
 /// `triangles`: three indices into `positions` a triangle, counter-clockwise seen from outside.
-std::vector<glm::vec3> smooth_normals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles);
+std::vector<Vec3> smooth_normals(std::span<const Vec3> positions, std::span<const std::uint32_t> triangles);
 
 /// Tangents for normal maps: xyz is the direction in which u grows on the surface (area-weighted over the triangles
 /// around the vertex, then made perpendicular to the normal), w the side: bitangent = cross(normal, xyz) * w points
@@ -28,7 +28,7 @@ std::vector<glm::vec3> smooth_normals(std::span<const glm::vec3> positions, std:
 /// always; where the texture coordinates have no gradient, any perpendicular and +1. `normals` are of unit length; all
 /// spans but `triangles` have one entry a vertex. The gradient of the texture coordinates over a triangle is Lengyel's
 /// ("Foundations of Game Engine Development 2: Rendering", 7.5).
-std::vector<glm::vec4> tangents_from_uv(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                                        std::span<const glm::vec2> uv, std::span<const std::uint32_t> triangles);
+std::vector<Vec4> tangents_from_uv(std::span<const Vec3> positions, std::span<const Vec3> normals,
+                                   std::span<const Vec2> uv, std::span<const std::uint32_t> triangles);
 
 }  // namespace blush

@@ -11,9 +11,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/face.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -33,27 +32,25 @@ struct NormalTopology {
 
     std::vector<std::uint32_t> first_triangle;  ///< of each vertex, and one past the last: vertices + 1 entries
     /// The vertices (a, b, c) of each triangle around a vertex, starting with the vertex (or its copy across a seam).
-    std::vector<glm::uvec3> triangles;
-    std::vector<glm::vec3>
-        rest_sums;  ///< angle-weighted normal at rest, unnormalised; zero where no triangle has an area
+    std::vector<UVec3> triangles;
+    std::vector<Vec3> rest_sums;  ///< angle-weighted normal at rest, unnormalised; zero where no triangle has an area
 };
 
 /// Sum of the unit normals of the triangles around `vertex`, each times its angle (radians) at the vertex: a direction
 /// that does not depend on how the surface is cut into triangles. Triangles without an area or with an edge shorter
 /// than 1e-15 add nothing.
-glm::vec3 angle_weighted_normal(const NormalTopology& topology, std::span<const glm::vec3> positions,
-                                std::uint32_t vertex);
+Vec3 angle_weighted_normal(const NormalTopology& topology, std::span<const Vec3> positions, std::uint32_t vertex);
 
 /// The rest normal turned by the rotation that takes `rest_sum` to `deformed_sum` (neither need be normalised).
 /// Where either is shorter than 0.001 radians (a fan without area, or one whose triangles face each other, as those of
 /// a card with both sides do), the rest normal itself. Half a turn has no shortest arc: beyond 179.9 degrees the normal
 /// of the deformed surface is taken.
-glm::vec3 turned_normal(glm::vec3 rest_normal, glm::vec3 rest_sum, glm::vec3 deformed_sum);
+Vec3 turned_normal(Vec3 rest_normal, Vec3 rest_sum, Vec3 deformed_sum);
 
 /// v / |v|, or `fallback` where |v|^2 is not between 1e-30 and 1e37 (no direction, or about to overflow).
-glm::vec3 normalized_or(glm::vec3 v, glm::vec3 fallback);
+Vec3 normalized_or(Vec3 v, Vec3 fallback);
 
 /// The tangent made orthogonal to `normal` again; where nothing remains of it, `rest_tangent`. w is kept.
-glm::vec4 orthogonal_tangent(glm::vec4 tangent, glm::vec3 normal, glm::vec4 rest_tangent);
+Vec4 orthogonal_tangent(Vec4 tangent, Vec3 normal, Vec4 rest_tangent);
 
 }  // namespace blush

@@ -42,8 +42,8 @@ public:
     struct Job {
         const ActivePieces* active = nullptr;
         NormalMethod method = NormalMethod::authored;
-        std::span<glm::vec3> positions, normals;
-        std::span<glm::vec4> tangents;
+        std::span<Vec3> positions, normals;
+        std::span<Vec4> tangents;
     };
 
     /// Keeps a reference to `face`, which must outlive it. Packs the targets and builds the topology of the normals.

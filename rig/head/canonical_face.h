@@ -13,10 +13,9 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/face.h"
 #include "rig/map.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -27,7 +26,7 @@ inline constexpr float canonical_pupil_mm = 31, canonical_mouth_mm = -68, canoni
 
 /// Three places that fix a face's frame, in mesh units, and their heights on the mean face.
 struct FaceLandmarks {
-    glm::vec3 left_eye{0}, right_eye{0}, mouth{0};
+    Vec3 left_eye{0}, right_eye{0}, mouth{0};
     float eye_height_mm = 0, mouth_height_mm = canonical_mouth_mm;
 };
 
@@ -45,22 +44,22 @@ public:
     /// The three landmarks must not lie on one line; usable() says so.
     explicit CanonicalFrame(const FaceLandmarks& landmarks);
     bool usable() const { return usable_; }
-    glm::vec2 canonical_mm(const glm::vec3& position) const;
+    Vec2 canonical_mm(const Vec3& position) const;
     /// From the upright axis of the head.
-    float radius_mm(const glm::vec3& position) const;
+    float radius_mm(const Vec3& position) const;
     /// The length around the head after which x comes back: a full turn.
     static float turn_mm();
 
 private:
-    glm::vec3 between_eyes_{0}, left_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, 1};
+    Vec3 between_eyes_{0}, left_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, 1};
     float mm_across_ = 1, mm_up_ = 1, eye_height_mm_ = 0;
     bool usable_ = false;
 };
 
 /// Canonical coordinates of every texel of a face's texture.
 struct CanonicalMap {
-    Map<glm::vec2> canonical_mm;  ///< texels outside every triangle have those of the nearest one inside
-    ScalarMap coverage;           ///< 1 where a triangle covers the texel's centre, else 0
+    Map<Vec2> canonical_mm;  ///< texels outside every triangle have those of the nearest one inside
+    ScalarMap coverage;      ///< 1 where a triangle covers the texel's centre, else 0
 };
 
 /// From the geometry: the triangles of these primitives in their own texture layout (uv0; rig/wrinkles/uv_raster.h says
@@ -71,7 +70,7 @@ std::optional<CanonicalMap> canonical_map(const Face& face, std::span<const std:
 /// From the texture alone: where pupils and mouth lie in it (texture coordinates, v down), for layouts that unroll the
 /// face. Every texel counts as covered. Nothing where the places lie on one line.
 struct TextureLandmarks {
-    glm::vec2 left_eye{0}, right_eye{0}, mouth{0};
+    Vec2 left_eye{0}, right_eye{0}, mouth{0};
 };
 std::optional<CanonicalMap> canonical_map(const TextureLandmarks& landmarks, std::uint32_t width, std::uint32_t height);
 

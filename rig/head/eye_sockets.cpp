@@ -15,17 +15,10 @@ struct DrawnVertex {
     glm::vec3 world;  // at rest
 };
 
-std::vector<glm::mat4> rest_world(const Face& face) {
-    Pose pose;
-    for (const Node& node : face.nodes) pose.nodes.push_back(node.rest);
-    std::vector<glm::mat4> world(face.nodes.size());
-    world_from_nodes(face, pose, {}, world);
-    return world;
-}
-
 /// Each vertex of the primitives of one kind, once for each node that draws it.
 std::vector<DrawnVertex> vertices_of(const Face& face, const std::vector<MaterialKind>& kinds, MaterialKind kind) {
-    const std::vector<glm::mat4> world = rest_world(face);
+    const std::vector<glm::dmat4> placed = rest_placement(face);
+    const std::vector<glm::mat4> world(placed.begin(), placed.end());
     std::vector<DrawnVertex> found;
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
         if (face.nodes[n].mesh < 0 || face.nodes[n].skin >= 0) continue;
@@ -97,7 +90,8 @@ bool find_edge(const std::vector<DrawnVertex>& skin, const Eyeball& eye, float u
 }
 
 void to_meshes(const Face& face, EyeSockets& sockets) {
-    const std::vector<glm::mat4> world = rest_world(face);
+    const std::vector<glm::dmat4> placed = rest_placement(face);
+    const std::vector<glm::mat4> world(placed.begin(), placed.end());
     for (Eyeball& eye : sockets.eyes) {
         eye.centre = glm::vec3(glm::inverse(world[eye.node]) * glm::vec4(eye.centre, 1));
         eye.radius /= std::max(glm::length(glm::vec3(world[eye.node][0])), 1e-30F);

@@ -13,7 +13,7 @@ namespace blush {
 /// One eyeball of a face that looks along +Z, in the units of its mesh.
 struct Eyeball {
     std::size_t node = 0;  ///< that draws it
-    glm::vec3 centre{0};
+    Vec3 centre{0};
     float radius = 0;
     std::uint32_t pole = 0;  ///< its vertex farthest to the front
 };

@@ -13,13 +13,10 @@ namespace {
 
 /// Length in the world of a unit of the mesh that a primitive belongs to.
 double world_units_a_mesh_unit(const Face& face, std::uint32_t primitive) {
-    Pose pose;
-    for (const Node& node : face.nodes) pose.nodes.push_back(node.rest);
-    std::vector<glm::mat4> world(face.nodes.size());
-    world_from_nodes(face, pose, {}, world);
+    const std::vector<glm::dmat4> world = rest_placement(face);
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
         if (face.nodes[n].mesh != static_cast<std::int32_t>(face.primitives[primitive].mesh)) continue;
-        const double volume = std::abs(glm::determinant(glm::dmat3(glm::mat3(world[n]))));
+        const double volume = std::abs(glm::determinant(glm::dmat3(world[n])));
         return std::cbrt(volume);
     }
     return 1;

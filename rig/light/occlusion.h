@@ -42,15 +42,15 @@ bool stops_light(const Face& face, const Primitive& primitive);
 
 /// The frame of a vertex: z is the normal, x the part of the tangent that is perpendicular to it (any perpendicular
 /// where there is none), right-handed. normal: unit length.
-glm::dmat3 vertex_frame(glm::dvec3 normal, glm::dvec3 tangent);
+DMat3 vertex_frame(DVec3 normal, DVec3 tangent);
 
 /// Directions about +z, distributed with the cosine (a Fibonacci lattice on the unit disc, lifted): each stands for
 /// pi / count of max(z, 0) dw. Unit length, z above 0.
-std::vector<glm::dvec3> cosine_directions(std::uint32_t count);
+std::vector<DVec3> cosine_directions(std::uint32_t count);
 
 /// The transfer of a vertex from which `directions` (of its frame) are hidden or not: the closed form of an open vertex
 /// less the sum over what is hidden, so that an open vertex is exact however few the directions.
-LightTransfer transfer_of(std::span<const glm::dvec3> directions, std::span<const std::uint8_t> hidden);
+LightTransfer transfer_of(std::span<const DVec3> directions, std::span<const std::uint8_t> hidden);
 
 /// Share of cosine-weighted directions that are open, 0 to 1.
 double openness(const LightTransfer& transfer);
@@ -58,12 +58,12 @@ double openness(const LightTransfer& transfer);
 /// Irradiance / pi under light of these coefficients: what white reflects. world_from_frame: vertex_frame() in the
 /// world. Nine coefficients ring, so the result is held between what is certain: no more than an open vertex gathers,
 /// and no less than the open directions bring of `least_radiance`, which the light has from every side.
-glm::dvec3 occluded_ambient(const Sh9Color& radiance, const LightTransfer& transfer, const glm::dmat3& world_from_frame,
-                            glm::dvec3 least_radiance = glm::dvec3(0));
+DVec3 occluded_ambient(const Sh9Color& radiance, const LightTransfer& transfer, const DMat3& world_from_frame,
+                       DVec3 least_radiance = DVec3(0));
 
 /// The same with the light that the surfaces around a vertex send on: what hides it shines as the vertex itself does,
 /// albedo times its irradiance, so that E = direct + (1 - openness) albedo E. A white furnace stays white.
-glm::dvec3 with_bounces(glm::dvec3 direct, double openness, glm::dvec3 albedo);
+DVec3 with_bounces(DVec3 direct, double openness, DVec3 albedo);
 
 /// Vertices that are shut in (openness below a fiftieth) take the mean of their open neighbours, and those of theirs,
 /// ring by ring: of what is seen of a triangle between the two, the open corner tells. `triangles`: vertex indices.

@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/light/diffusion_profile.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -18,8 +17,8 @@ struct KernelShape {
     /// Eq. 6.1 prints p[x w / (0.001 + f)], which would narrow the kernel as w grows, against the text and figure 6.5
     /// (b); listing 6 multiplies the distance of the samples by the width, and so does this.
     double width = 1;
-    glm::dvec3 strength{1};  ///< 0 to 1: share of the light that enters the skin; the rest leaves where it came
-    glm::dvec3 falloff{1};   ///< 0 to 1: how far each channel reaches, as a factor on the red profile
+    DVec3 strength{1};  ///< 0 to 1: share of the light that enters the skin; the rest leaves where it came
+    DVec3 falloff{1};   ///< 0 to 1: how far each channel reaches, as a factor on the red profile
 
     bool operator==(const KernelShape&) const = default;
 };
@@ -43,7 +42,7 @@ double kernel_range_mm(const KernelShape& shape);
 
 struct KernelTap {
     double offset_mm = 0;
-    glm::dvec3 weight{0};
+    DVec3 weight{0};
 };
 
 /// Eq. 6.1 as `count` taps (odd, 3 or more), offsets ascending, the middle one at 0, more densely near the centre (the

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <limits>
 
+#include <glm/gtc/quaternion.hpp>
+
 namespace blush {
 namespace {
 
@@ -88,7 +90,7 @@ void sample(const Track& track, float time_seconds, std::span<float> out) {
     for (std::size_t i = 0; i < track.width; ++i) out[i] = to_float(component(track, place, i));
 }
 
-glm::quat sample_rotation(const Track& track, float time_seconds) {
+Quat sample_rotation(const Track& track, float time_seconds) {
     assert(track.width == 4 && "a rotation track has width 4");
     const Place place = find_place(track, time_seconds);
     glm::dquat q;
@@ -98,8 +100,7 @@ glm::quat sample_rotation(const Track& track, float time_seconds) {
         q = normalized(glm::dquat(component(track, place, 3), component(track, place, 0), component(track, place, 1),
                                   component(track, place, 2)));
     }
-    return glm::quat(static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
-                     static_cast<float>(q.z));
+    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
 }
 
 }  // namespace blush

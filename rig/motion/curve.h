@@ -3,9 +3,8 @@
 
 #include <span>
 
-#include <glm/gtc/quaternion.hpp>
-
 #include "rig/face.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -14,6 +13,6 @@ namespace blush {
 void sample(const Track& track, float time_seconds, std::span<float> out);
 
 /// The same for a rotation track (width 4: x, y, z, w); slerp along the shorter arc, unit length out.
-glm::quat sample_rotation(const Track& track, float time_seconds);
+Quat sample_rotation(const Track& track, float time_seconds);
 
 }  // namespace blush

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -17,7 +17,7 @@ namespace blush {
 /// length in cycles a texel (a fold is at least 4 texels wide: longer vectors count as 1/4, and zero as no folds).
 /// Returns -1 (bottom of a valley) to 1 (top of a ridge), 0 where there are no folds. The same seed gives the same
 /// bits.
-std::vector<float> grow_folds(std::span<const glm::vec2> wave, std::uint32_t width, std::uint32_t height,
+std::vector<float> grow_folds(std::span<const Vec2> wave, std::uint32_t width, std::uint32_t height,
                               std::uint32_t seed);
 
 /// White noise: a number from -1 to 1 for each texel.

@@ -1,15 +1,15 @@
 #pragma once
 /// A part of a face's texture layout, for small maps that need not show all of it.
 
-#include <glm/glm.hpp>
+#include "rig/vectors.h"
 
 namespace blush {
 
 /// A rectangle of texture coordinates (v down), 0 to 1, from below to.
 struct LayoutPart {
-    glm::vec2 from{0}, to{1};
+    Vec2 from{0}, to{1};
 
-    bool is_whole() const { return from == glm::vec2(0) && to == glm::vec2(1); }
+    bool is_whole() const { return from == Vec2(0) && to == Vec2(1); }
     /// Texture coordinates in a map that shows this part alone.
     template <class Uv>
     Uv within(Uv uv) const {

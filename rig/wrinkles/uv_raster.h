@@ -14,8 +14,8 @@ namespace blush {
 struct UvTexel {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    std::uint32_t triangle = none;      ///< number of the triangle: its corners are indices[3 * triangle + 0, 1, 2]
-    glm::vec3 corner_weights{0, 0, 0};  ///< barycentric, sum 1
+    std::uint32_t triangle = none;  ///< number of the triangle: its corners are indices[3 * triangle + 0, 1, 2]
+    Vec3 corner_weights{0, 0, 0};   ///< barycentric, sum 1
 };
 
 /// The UV layout of (some primitives of) a face at the centres of width x height texels, rows from the top: v runs

@@ -21,6 +21,21 @@ FromLine from_line(const WrinkleZonePlace& place, glm::vec2 at) {
 
 }  // namespace
 
+constinit const std::array<WrinkleZonePlace, 12> wrinkle_zone_places = {{
+    {"foreheadOuterLeft", {31, 42}, {46, 41}, 19},   // red
+    {"foreheadOuterRight", {31, 42}, {46, 41}, 19},  // green
+    {"foreheadInnerLeft", {8, 43}, {16, 43}, 20},    // blue
+    {"foreheadInnerRight", {8, 43}, {16, 43}, 20},   // brown
+    {"noseLeft", {6, 0}, {11, -20}, 9},              // cyan
+    {"noseRight", {6, 0}, {11, -20}, 9},             // magenta
+    {"glabella", {0, 4}, {0, 24}, 13},               // orange
+    {"chin", {-10, -94}, {10, -94}, 14},             // gray
+    {"crowsFeetLeft", {58, 6}, {60, -8}, 13},
+    {"crowsFeetRight", {58, 6}, {60, -8}, 13},
+    {"nasolabialLeft", {18, -37}, {33, -70}, 9, true},
+    {"nasolabialRight", {18, -37}, {33, -70}, 9, true},
+}};
+
 bool in_a_zone(std::span<const std::string> zones, glm::vec2 canonical_mm) {
     return std::ranges::any_of(wrinkle_zone_places, [&](const WrinkleZonePlace& place) {
         return from_line(place, canonical_mm).away_mm < place.radius_mm &&

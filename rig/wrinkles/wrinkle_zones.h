@@ -9,9 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "rig/head/canonical_face.h"
+#include "rig/vectors.h"
 
 namespace blush {
 
@@ -19,7 +18,7 @@ namespace blush {
 /// whose name ends in "Right" the ends are mirrored.
 struct WrinkleZonePlace {
     std::string_view name;
-    glm::vec2 from_mm, to_mm;  ///< canonical, of the left one of a pair
+    Vec2 from_mm, to_mm;  ///< canonical, of the left one of a pair
     float radius_mm = 1;
     bool crease = false;  ///< one fold, whose valley is the line itself; else as many as the compression asks for
 };
@@ -30,20 +29,7 @@ struct WrinkleZonePlace {
 /// zones, which then reach down to the corners of the eyes. Places by the landmarks of Farkas 1994: hairline 65 mm
 /// above the pupils, brows 20, outer corner of the eye at 48 from the midline, wing of the nose at 17 and 38 below,
 /// corner of the mouth at 26 and 68 below.
-inline constexpr std::array<WrinkleZonePlace, 12> wrinkle_zone_places = {{
-    {"foreheadOuterLeft", {31, 42}, {46, 41}, 19},   // red
-    {"foreheadOuterRight", {31, 42}, {46, 41}, 19},  // green
-    {"foreheadInnerLeft", {8, 43}, {16, 43}, 20},    // blue
-    {"foreheadInnerRight", {8, 43}, {16, 43}, 20},   // brown
-    {"noseLeft", {6, 0}, {11, -20}, 9},              // cyan
-    {"noseRight", {6, 0}, {11, -20}, 9},             // magenta
-    {"glabella", {0, 4}, {0, 24}, 13},               // orange
-    {"chin", {-10, -94}, {10, -94}, 14},             // gray
-    {"crowsFeetLeft", {58, 6}, {60, -8}, 13},
-    {"crowsFeetRight", {58, 6}, {60, -8}, 13},
-    {"nasolabialLeft", {18, -37}, {33, -70}, 9, true},
-    {"nasolabialRight", {18, -37}, {33, -70}, 9, true},
-}};
+extern const std::array<WrinkleZonePlace, 12> wrinkle_zone_places;
 
 /// A zone laid over a face: what bake_wrinkles() takes.
 struct WrinkleZoneField {
@@ -52,7 +38,7 @@ struct WrinkleZoneField {
 };
 
 /// Whether a place lies within the radius of any of these zones.
-bool in_a_zone(std::span<const std::string> zones, glm::vec2 canonical_mm);
+bool in_a_zone(std::span<const std::string> zones, Vec2 canonical_mm);
 
 /// For each of `zones` its place in the layout of `map`. Names that are none of wrinkle_zone_places are everywhere.
 std::vector<WrinkleZoneField> wrinkle_zone_fields(std::span<const std::string> zones, const CanonicalMap& map);

@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "runtime/antialias/pictures.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame.h"
 #include "runtime/gl/texture_pool.h"
 
 namespace blush {
 namespace {
-
-bool same_stance(const CharacterState& state, const View& view, const Stance& stance) {
-    return stance.active == state.active && stance.world_from_node == state.world_from_node &&
-           stance.skinned_from_mesh == state.skinned_from_mesh && stance.camera == view.camera;
-}
 
 gl::Texture make_kept_texture(PixelFormat format, const TextureShape& shape) {
     gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
@@ -25,25 +20,39 @@ gl::Texture make_kept_texture(PixelFormat format, const TextureShape& shape) {
 
 }  // namespace
 
-void find_last_frame(CharacterState& state, const View& view) {
-    LastFrame& last = state.own<LastFrame>();
-    if (!state.sampling.temporal) {
-        if (last.positions) last = {};
+void find_last_frame(FrameState& frame, const ViewFrame& view) {
+    LastFrame& last = frame.own<LastFrame>();
+    for (CharacterState* character : frame.characters) character->moves = false;
+    if (!frame.sampling.temporal) {
+        if (last.images[0].color || last.images[1].color) last = {};
         return;
     }
     const TextureShape& shape = last.images[last.phase].shape;
     const PixelFormat format = picture_format(view.output);
-    last.known = last.known && !view.cut && last.sampling == state.sampling && shape.format == format &&
-                 shape.width == view.width && shape.height == view.height;
-    last.sampling = state.sampling;
+    // One whose surface is not known as it was in the last frame makes this one a cut.
+    const bool same_characters = last.scene == frame.scene && last.scene_frame + 1 == frame.scene->frame &&
+                                 std::ranges::equal(last.characters, frame.characters) &&
+                                 std::ranges::all_of(frame.characters, [&last](const CharacterState* character) {
+                                     return character->last.frame == last.scene_frame;
+                                 });
+    last.known = last.known && same_characters && !view.cut && last.sampling == frame.sampling &&
+                 shape.format == format && shape.width == view.width && shape.height == view.height;
+    last.sampling = frame.sampling;
     last.phase = last.known ? 1 - last.phase : 0;
     last.images[last.phase].has_speeds = false;
-    state.facts.has_last_frame = last.known;
-    state.facts.moves = last.known && !same_stance(state, view, last.stance);
+    frame.facts.has_last_frame = last.known;
+    if (!last.known) return;
+    const bool same_camera = last.camera.view_from_world == view.camera.view_from_world &&
+                             last.camera.clip_from_view == frame.clip_from_view;
+    for (CharacterState* character : frame.characters) {
+        character->moves = !(character->last.stance == character->stance);
+        frame.facts.moves |= character->moves;
+    }
+    frame.facts.moves |= !same_camera;
 }
 
-KeptImage& kept_image(CharacterState& state, const TextureShape& shape) {
-    LastFrame& last = state.own<LastFrame>();
+KeptImage& kept_image(FrameState& frame, const TextureShape& shape) {
+    LastFrame& last = frame.own<LastFrame>();
     KeptImage& kept = last.images[last.phase];
     if (!kept.color || kept.shape != shape) {
         kept.color = make_kept_texture(shape.format, shape);
@@ -54,31 +63,52 @@ KeptImage& kept_image(CharacterState& state, const TextureShape& shape) {
     return kept;
 }
 
-ResourceId import_kept_speeds(CharacterState& state) {
-    TextureShape shape{picture_format(state.view->output), state.view->width, state.view->height, 1};
-    KeptImage& kept = kept_image(state, shape);
+ResourceId import_kept_speeds(FrameState& frame) {
+    TextureShape shape{picture_format(frame.view->output), frame.view->width, frame.view->height, 1};
+    KeptImage& kept = kept_image(frame, shape);
     kept.has_speeds = true;
     shape.format = PixelFormat::r16f;
-    return state.graph.import_texture("kept speeds", kept.speeds.name(), shape);
+    return frame.graph.import_texture("kept speeds", kept.speeds.name(), shape);
 }
 
-ResourceId import_kept_depth(CharacterState& state, TextureShape shape) {
-    KeptImage& kept = kept_image(state, {picture_format(state.view->output), state.view->width, state.view->height, 1});
+void keep_display(FrameState& frame) {
+    const TextureShape shape{picture_format(frame.view->output), frame.view->width, frame.view->height, 1};
+    const ResourceId kept = frame.graph.import_texture("kept image", kept_image(frame, shape).color.name(), shape);
+    if (frame.resources.display == frame.resources.scene_color) {
+        declare_copy(frame, frame.resources.display, kept);
+    } else {
+        frame.graph.forward(frame.resources.display, kept);
+    }
+    frame.resources.display = kept;
+}
+
+ResourceId import_kept_depth(FrameState& frame, TextureShape shape) {
+    KeptImage& kept = kept_image(frame, {picture_format(frame.view->output), frame.view->width, frame.view->height, 1});
     shape.format = PixelFormat::depth32f;
-    return state.graph.import_texture("scene depth", kept.depth.name(), shape);
+    return frame.graph.import_texture("scene depth", kept.depth.name(), shape);
 }
 
-void keep_for_next_frame(CharacterState& state, const View& view) {
-    if (!state.sampling.temporal) return;
-    LastFrame& last = state.own<LastFrame>();
-    const auto bytes = static_cast<GLsizeiptr>(state.face.positions.size() * sizeof(glm::vec3));
-    const bool stale = !last.known || state.facts.moves;
+void keep_for_next_frame(FrameState& frame) {
+    if (!frame.sampling.temporal) return;
+    LastFrame& last = frame.own<LastFrame>();
+    last.scene = frame.scene;
+    last.scene_frame = frame.scene->frame;
+    last.characters.assign(frame.characters.begin(), frame.characters.end());
+    last.camera = frame.view->camera;
+    last.camera.clip_from_view = frame.clip_from_view;
+    last.known = true;
+}
+
+void keep_surface(CharacterState& character, std::uint64_t scene_frame) {
+    LastSurface& last = character.last;
+    const auto bytes = static_cast<GLsizeiptr>(character.face.positions.size() * sizeof(glm::vec3));
+    const bool stale = last.frame == 0 || !(last.stance == character.stance);
     if (!last.positions) last.positions = gl::make_buffer(static_cast<std::size_t>(bytes), nullptr);
     // A copy, and not two buffers in turn: the deformation of an unchanged frame is not run, and its result stays put.
     if (stale && bytes != 0)
-        glCopyNamedBufferSubData(state.surface->positions.name(), last.positions.name(), 0, 0, bytes);
-    last.stance = {state.active, state.world_from_node, state.skinned_from_mesh, view.camera};
-    last.known = true;
+        glCopyNamedBufferSubData(character.surface->positions.name(), last.positions.name(), 0, 0, bytes);
+    last.stance = character.stance;
+    last.frame = scene_frame;
 }
 
 }  // namespace blush

@@ -13,15 +13,8 @@
 namespace blush {
 
 struct CharacterState;
-
-/// All that decides where each point of the face stands on the screen.
-struct Stance {
-    std::vector<ActiveTarget> active;
-    std::vector<glm::mat4> world_from_node, skinned_from_mesh;
-    Camera camera;
-
-    bool operator==(const Stance&) const = default;
-};
+struct FrameState;
+struct SceneState;
 
 /// A frame before it was blended with the one before it.
 struct KeptImage {
@@ -35,26 +28,34 @@ struct KeptImage {
 struct LastFrame {
     bool known = false;  ///< there was a frame before this one, of the same size and sampling
     Sampling sampling;
-    std::uint32_t phase = 0;  ///< of this frame: 0 and 1 in turn
-    Stance stance;
-    gl::Buffer positions;             ///< of every vertex, as the last frame's surface passes left them
+    std::uint32_t phase = 0;        ///< of this frame: 0 and 1 in turn
+    std::uint64_t scene_frame = 0;  ///< SceneState::frame of it
+    const SceneState* scene = nullptr;
+    std::vector<const CharacterState*> characters;
+    Camera camera;                    ///< GL's own convention, not moved
     std::array<KeptImage, 2> images;  ///< [phase]: of this frame, [1 - phase]: of the last
 };
 
 /// Settles whether there is a last frame for this one (facts.has_last_frame, facts.moves), and gives back what a mode
-/// that is not temporal does not need. Call once state.sampling is known.
-void find_last_frame(CharacterState& state, const View& view);
+/// that is not temporal does not need. Call once frame.sampling is known.
+void find_last_frame(FrameState& frame, const ViewFrame& view);
 
 /// The image of this frame to keep, made where it is missing or of another shape.
-KeptImage& kept_image(CharacterState& state, const TextureShape& shape);
+KeptImage& kept_image(FrameState& frame, const TextureShape& shape);
 
 /// The speeds of this frame to keep, as a resource of the graph that is written to.
-ResourceId import_kept_speeds(CharacterState& state);
+ResourceId import_kept_speeds(FrameState& frame);
+
+/// The picture as far as it has come is kept for the next frame.
+void keep_display(FrameState& frame);
 
 /// The depth of this frame's last picture, as a resource of the graph that is written to.
-ResourceId import_kept_depth(CharacterState& state, TextureShape shape);
+ResourceId import_kept_depth(FrameState& frame, TextureShape shape);
 
 /// After the frame has run: what the next one compares itself with.
-void keep_for_next_frame(CharacterState& state, const View& view);
+void keep_for_next_frame(FrameState& frame);
+
+/// Keeps where a character's surface is, after all views of a frame.
+void keep_surface(CharacterState& character, std::uint64_t scene_frame);
 
 }  // namespace blush

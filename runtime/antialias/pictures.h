@@ -1,7 +1,7 @@
 #pragma once
 /// Where the pictures of one frame wait for one another. A frame of one picture keeps nothing here.
 
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 
 namespace blush {
 
@@ -20,15 +20,15 @@ struct Pictures {
 };
 
 /// Forgets what a frame of one picture does not need.
-void begin_pictures(CharacterState& state);
+void begin_pictures(FrameState& frame);
 
 /// What the picture being drawn (not the last one) goes to.
-ResourceId picture_store(CharacterState& state, const TextureShape& shape, FrameGraph& graph);
+ResourceId picture_store(FrameState& frame, const TextureShape& shape, FrameGraph& graph);
 
 /// What the speeds of the first of two pictures go to. After picture_store().
-ResourceId first_speeds_store(CharacterState& state, TextureShape shape, FrameGraph& graph);
+ResourceId first_speeds_store(FrameState& frame, TextureShape shape, FrameGraph& graph);
 
 /// GL name of the mean of the pictures before the one being drawn (not the first one).
-GLuint pictures_so_far(CharacterState& state);
+GLuint pictures_so_far(FrameState& frame);
 
 }  // namespace blush

@@ -43,7 +43,7 @@ glm::vec2 Sampling::sample_offset_pixels(std::uint32_t picture, std::uint32_t ph
     }
 }
 
-Sampling find_sampling(const EffectSettings& settings, const View& view, std::uint32_t largest_sample_count,
+Sampling find_sampling(const EffectSettings& settings, const ViewFrame& view, std::uint32_t largest_sample_count,
                        bool on_screen) {
     Sampling sampling;
     sampling.mode = static_cast<AntialiasingMode>(settings.choice("antialiasing", "mode"));

@@ -15,7 +15,7 @@ namespace blush {
 
 /// In the order of antialiasing_modes.
 enum class AntialiasingMode : std::uint8_t {
-    view,          ///< multisampling with View::samples
+    view,          ///< multisampling with ViewFrame::samples
     none,          ///< one sample in the middle of the pixel
     msaa2,         ///< multisampling, two samples (more where the device has no two)
     msaa4,         ///< multisampling, four samples
@@ -45,11 +45,11 @@ struct Sampling {
 };
 
 /// on_screen: something may be drawn; where nothing is, one sample is exact in every mode.
-Sampling find_sampling(const EffectSettings& settings, const View& view, std::uint32_t largest_sample_count,
+Sampling find_sampling(const EffectSettings& settings, const ViewFrame& view, std::uint32_t largest_sample_count,
                        bool on_screen);
 
 /// The camera whose pixel middles fall on `sample_offset_pixels` of `camera`'s pixels. The only way in which jitter
-/// reaches a frame: what draws geometry uses CharacterState::camera.
+/// reaches a frame: what draws geometry uses FrameState::camera.
 Camera jittered(const Camera& camera, glm::vec2 sample_offset_pixels, std::uint32_t width, std::uint32_t height);
 
 }  // namespace blush

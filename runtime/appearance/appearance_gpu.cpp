@@ -9,7 +9,7 @@
 #include "rig/wrinkles/texture_bytes.h"
 #include "runtime/appearance/signed_texture.h"
 #include "runtime/files/wrinkle_bake.h"
-#include "runtime/frame/effect.h"
+#include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush {
@@ -73,12 +73,12 @@ gl::Texture mask_texture(const std::vector<ScalarMap>& masks) {
 static_assert(most_wrinkle_masks == BLUSH_MOST_WRINKLE_MASKS);
 
 /// The base normal map of the skin, or one without texels.
-NormalMap base_normals(const CharacterState& state) {
+NormalMap base_normals(const CharacterState& character) {
     NormalMap base;
-    for (std::size_t m = 0; m < state.face.materials.size(); ++m) {
-        const Material& material = state.face.materials[m];
-        if (!state.skin.material[m] || material.normal.image < 0) continue;
-        const Image& image = state.face.images[static_cast<std::size_t>(material.normal.image)];
+    for (std::size_t m = 0; m < character.face.materials.size(); ++m) {
+        const Material& material = character.face.materials[m];
+        if (!character.facts_of_face.skin.material[m] || material.normal.image < 0) continue;
+        const Image& image = character.face.images[static_cast<std::size_t>(material.normal.image)];
         if (image.channels < 3) continue;
         base = normals_of(image);
         for (glm::vec3& normal : base.values) {
@@ -137,26 +137,23 @@ Map<glm::vec3> normal_differences(const DerivativeMap& wrinkles, const NormalMap
     return differences;
 }
 
-WrinkleTextures& wrinkle_textures(CharacterState& state) {
-    WrinkleTextures& textures = state.own<WrinkleTextures>();
-    const WrinkleSet& set = *state.appearance.wrinkles;
-    const auto storage = static_cast<WrinkleStorage>(state.settings.choice(wrinkles_effect.name, "storage"));
-    const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
+WrinkleTextures& wrinkle_textures(CharacterState& character) {
+    const WrinkleSet& set = *character.asset.appearance().wrinkles;
+    const auto storage = static_cast<WrinkleStorage>(character.settings.choice(wrinkles_effect.name, "storage"));
+    WrinkleTextures& textures =
+        character.model->own<std::array<WrinkleTextures, 3>>()[static_cast<std::size_t>(storage)];
+    textures.storage = storage;
+    const bool differences = character.settings.choice(wrinkles_effect.name, "encoding") == 1;
     if (!textures.masks) {
         textures.masks = mask_texture(set.masks);
         end_at_part(textures.masks, set);
-    }
-    if (textures.storage != storage) {
-        textures.derivatives = {};
-        textures.differences = {};
-        textures.storage = storage;
     }
     if (!differences && !textures.derivatives) {
         textures.derivatives = derivative_texture(set, storage);
         end_at_part(textures.derivatives, set);
     }
     if (differences && !textures.differences) {
-        const NormalMap base = part_of(base_normals(state), set);
+        const NormalMap base = part_of(base_normals(character), set);
         textures.differences = difference_texture(normal_differences(set.derivatives, base), storage);
         end_at_part(textures.differences, set);
     }
@@ -172,19 +169,17 @@ WrinkleTextures& wrinkle_textures(CharacterState& state) {
     return textures;
 }
 
-std::vector<float> zone_weights_of(const CharacterState& state) {
-    const std::span<const std::string> known = state.rig.wrinkle_zones();
-    std::vector<float> weights;
-    for (const std::string& zone : state.appearance.wrinkles->zones) {
-        const auto found = std::ranges::find(known, zone);
-        weights.push_back(found == known.end() ? 0
-                                               : state.pose.wrinkles[static_cast<std::size_t>(found - known.begin())]);
+void zone_weights_of(const CharacterState& character, std::span<float> out) {
+    const std::span<const std::string> known = character.rig.wrinkle_zones();
+    const std::vector<std::string>& zones = character.asset.appearance().wrinkles->zones;
+    for (std::size_t z = 0; z < zones.size(); ++z) {
+        const auto found = std::ranges::find(known, zones[z]);
+        out[z] = found == known.end() ? 0 : character.pose.wrinkles[static_cast<std::size_t>(found - known.begin())];
     }
-    return weights;
 }
 
-bool colour_from_pigments(const CharacterState& state) {
-    return state.settings.choice(blood_effect.name, "colour") == 1;
+bool colour_from_pigments(const CharacterState& character) {
+    return character.settings.choice(blood_effect.name, "colour") == 1;
 }
 
 namespace {
@@ -215,11 +210,11 @@ void make_residual(BloodTextures& textures, const ColourMap& map) {
 
 }  // namespace
 
-BloodTextures& blood_textures(CharacterState& state) {
-    BloodTextures& textures = state.own<BloodTextures>();
-    const SkinPigments& pigments = *state.appearance.pigments;
-    make_table(textures, static_cast<std::uint32_t>(state.settings.number(blood_effect.name, "table_nodes")));
-    if (colour_from_pigments(state)) make_residual(textures, pigments.maps.residual);
+BloodTextures& blood_textures(CharacterState& character) {
+    BloodTextures& textures = character.model->own<BloodTextures>();
+    const SkinPigments& pigments = *character.asset.appearance().pigments;
+    make_table(textures, static_cast<std::uint32_t>(character.settings.number(blood_effect.name, "table_nodes")));
+    if (colour_from_pigments(character)) make_residual(textures, pigments.maps.residual);
     if (textures.pigments) return textures;
     const std::uint32_t width = pigments.maps.skin.width, height = pigments.maps.skin.height;
     const int levels = levels_of(width, height);
@@ -228,7 +223,7 @@ BloodTextures& blood_textures(CharacterState& state) {
     glGenerateTextureMipmap(textures.pigments.name());
 
     const HemoglobinMaps& blood = pigments.blood;
-    for (const std::string& name : state.rig.hemoglobin_maps()) {
+    for (const std::string& name : character.rig.hemoglobin_maps()) {
         const auto found = std::ranges::find(blood.names, name);
         textures.layer.push_back(found == blood.names.end() ? -1 : static_cast<int>(found - blood.names.begin()));
     }
@@ -247,70 +242,83 @@ BloodTextures& blood_textures(CharacterState& state) {
                             static_cast<GLsizei>(change_width), static_cast<GLsizei>(change_height), 1, GL_RG, GL_FLOAT,
                             texels.data());
     }
-    textures.blended = texture_2d(GL_RG16F, change_width, change_height);
-    textures.blend_framebuffer = gl::make_framebuffer();
-    glNamedFramebufferTexture(textures.blend_framebuffer.name(), GL_COLOR_ATTACHMENT0, textures.blended.name(), 0);
-    Result<gl::Program> program = gl::make_program({"screen.vert", "blood/blood_change.frag"});
-    assert(program && "blood_change.frag does not compile");
-    if (program) textures.blend_program = *std::move(program);
+    textures.blended_shape = {PixelFormat::rg16f, change_width, change_height, 1};
+    gl::require_program(textures.blend_program, {"screen.vert", "blood/blood_change.frag"});
     return textures;
 }
 
-void blend_blood(CharacterState& state) {
-    BloodTextures& textures = blood_textures(state);
+BlendedBlood& blended_blood(CharacterState& character) {
+    auto& blended = character.own<BlendedBlood>();
+    if (blended.texture) return blended;
+    const TextureShape& shape = blood_textures(character).blended_shape;
+    blended.texture = texture_2d(GL_RG16F, shape.width, shape.height);
+    blended.framebuffer = gl::make_framebuffer();
+    glNamedFramebufferTexture(blended.framebuffer.name(), GL_COLOR_ATTACHMENT0, blended.texture.name(), 0);
+    return blended;
+}
+
+void blend_blood(FrameState& frame, CharacterState& character) {
+    const BloodTextures& textures = blood_textures(character);
+    BlendedBlood& blended = blended_blood(character);
     std::array<glm::ivec4, BLUSH_MOST_BLOOD_MAPS / 4> layers{};
     std::array<glm::vec4, BLUSH_MOST_BLOOD_MAPS / 4> shares{};
     int count = 0;
-    for (std::size_t m = 0; m < state.pose.hemoglobin.size() && count < BLUSH_MOST_BLOOD_MAPS; ++m) {
-        if (state.pose.hemoglobin[m] == 0 || textures.layer[m] < 0) continue;
+    for (std::size_t m = 0; m < character.pose.hemoglobin.size() && count < BLUSH_MOST_BLOOD_MAPS; ++m) {
+        if (character.pose.hemoglobin[m] == 0 || textures.layer[m] < 0) continue;
         const auto slot = static_cast<std::size_t>(count);
         layers[slot / 4][static_cast<glm::length_t>(slot % 4)] = textures.layer[m];
-        shares[slot / 4][static_cast<glm::length_t>(slot % 4)] = state.pose.hemoglobin[m];
+        shares[slot / 4][static_cast<glm::length_t>(slot % 4)] = character.pose.hemoglobin[m];
         ++count;
     }
-    GLint width = 0, height = 0;
-    glGetTextureLevelParameteriv(textures.blended.name(), 0, GL_TEXTURE_WIDTH, &width);
-    glGetTextureLevelParameteriv(textures.blended.name(), 0, GL_TEXTURE_HEIGHT, &height);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, textures.blend_framebuffer.name());
-    glViewport(0, 0, width, height);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, blended.framebuffer.name());
+    glViewport(0, 0, static_cast<GLsizei>(textures.blended_shape.width),
+               static_cast<GLsizei>(textures.blended_shape.height));
     glUseProgram(textures.blend_program.name());
     glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, textures.changes.name());
     glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
     glUniform1i(0, count);
     glUniform4iv(1, static_cast<GLsizei>(layers.size()), &layers[0].x);
     glUniform4fv(1 + BLUSH_MOST_BLOOD_MAPS / 4, static_cast<GLsizei>(shares.size()), &shares[0].x);
-    glBindVertexArray(state.no_attributes.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    textures.blended_shares = state.pose.hemoglobin;
+    draw_screen(frame);
+    blended.shares = character.pose.hemoglobin;
 }
 
-void bind_appearance(CharacterState& state, bool wrinkles, bool blood) {
+namespace {
+
+struct AppearanceBuffer {
+    gl::Buffer buffer;  // shared::AppearanceBlock
+};
+
+}  // namespace
+
+void bind_appearance(CharacterState& character, bool wrinkles, bool blood) {
     if (!wrinkles && !blood) return;
     shared::AppearanceBlock block{};
     if (wrinkles) {
-        const WrinkleTextures& textures = wrinkle_textures(state);
-        const WrinkleSet& set = *state.appearance.wrinkles;
-        const std::vector<float> weights = zone_weights_of(state);
+        const WrinkleTextures& textures = wrinkle_textures(character);
+        const WrinkleSet& set = *character.asset.appearance().wrinkles;
+        std::array<float, std::size_t{4} * BLUSH_MOST_WRINKLE_MASKS> weights{};
+        zone_weights_of(character, weights);
         for (std::size_t z = 0; z < weights.size(); ++z)
             block.wrinkle_weights[z / 4][static_cast<glm::length_t>(z % 4)] = weights[z];
         block.wrinkle_range.x = set.range;
         const glm::vec2 scale = 1.0F / (set.part.to - set.part.from);
         block.wrinkle_part = glm::vec4(scale, -set.part.from * scale);
-        const bool differences = state.settings.choice(wrinkles_effect.name, "encoding") == 1;
+        const bool differences = character.settings.choice(wrinkles_effect.name, "encoding") == 1;
         glBindTextureUnit(BLUSH_WRINKLE_MAP_UNIT, (differences ? textures.differences : textures.derivatives).name());
         glBindTextureUnit(BLUSH_WRINKLE_MASKS_UNIT, textures.masks.name());
     }
     if (blood) {
-        const BloodTextures& textures = blood_textures(state);
-        block.blood = {state.pose.hemoglobin_factor, static_cast<float>(largest_hemoglobin),
+        const BloodTextures& textures = blood_textures(character);
+        block.blood = {character.pose.hemoglobin_factor, static_cast<float>(largest_hemoglobin),
                        static_cast<float>(textures.table_nodes), 0};
         glBindTextureUnit(BLUSH_PIGMENT_UNIT, textures.pigments.name());
-        glBindTextureUnit(BLUSH_BLOOD_CHANGE_UNIT, textures.blended.name());
+        glBindTextureUnit(BLUSH_BLOOD_CHANGE_UNIT, blended_blood(character).texture.name());
         glBindTextureUnit(BLUSH_SKIN_COLOR_UNIT, textures.table.name());
-        if (colour_from_pigments(state)) glBindTextureUnit(BLUSH_RESIDUAL_UNIT, textures.residual.name());
+        if (colour_from_pigments(character)) glBindTextureUnit(BLUSH_RESIDUAL_UNIT, textures.residual.name());
     }
     for (GLuint unit = BLUSH_WRINKLE_MAP_UNIT; unit <= BLUSH_SKIN_COLOR_UNIT; ++unit) glBindSampler(unit, 0);
-    auto& buffer = state.own<AppearanceBuffer>().buffer;
+    auto& buffer = character.own<AppearanceBuffer>().buffer;
     if (!buffer) buffer = gl::make_buffer(sizeof(block), nullptr, GL_DYNAMIC_STORAGE_BIT);
     glNamedBufferSubData(buffer.name(), 0, sizeof(block), &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, BLUSH_APPEARANCE_BINDING, buffer.name());

@@ -45,14 +45,12 @@ glm::vec3 unit_or(glm::vec3 v, glm::vec3 otherwise) {
 
 /// Places every node's primitives.
 World stand(const Face& face, const DeformedSurface& local) {
-    Pose pose;
-    for (const Node& node : face.nodes) pose.nodes.push_back(node.rest);
-    std::vector<glm::mat4> world_from_node(face.nodes.size());
-    world_from_nodes(face, pose, {}, world_from_node);
+    const std::vector<glm::dmat4> rest = rest_placement(face);
+    const std::vector<glm::mat4> world_from_node(rest.begin(), rest.end());
     std::size_t joint_count = 0;
     for (const Skin& skin : face.skins) joint_count += skin.joints.size();
     std::vector<glm::mat4> joints(joint_count);
-    skinned_from_meshes(face, world_from_node, joints);
+    skinned_from_meshes(face, rest, glm::dvec3(0), joints);
 
     World world;
     world.surface = local;

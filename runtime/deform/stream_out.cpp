@@ -40,28 +40,25 @@ void upload(gl::Buffer& buffer, std::size_t& capacity, const void* data, std::si
 
 }  // namespace
 
-Result<StreamOut> StreamOut::create(const Device& device, const Face& face, std::uint64_t largest_block_bytes) {
-    StreamOut stream_out(device, face);
+Result<std::shared_ptr<DeformModel>> DeformModel::create(const Device& device, const Face& face,
+                                                         std::uint64_t largest_block_bytes) {
+    std::shared_ptr<DeformModel> model(new DeformModel(face));
     if (largest_block_bytes == 0) largest_block_bytes = device.info().largest_storage_block_bytes;
-    if (Status built = stream_out.build(largest_block_bytes); !built) return built.error();
-    return stream_out;
+    if (Status built = model->build(largest_block_bytes, device.info().renderer); !built) return built.error();
+    return model;
 }
 
-Status StreamOut::build(std::uint64_t largest_block_bytes) {
+Status DeformModel::build(std::uint64_t largest_block_bytes, const std::string& renderer) {
     const Face& face = *face_;
     rest_.positions = gl::make_buffer<glm::vec3>(face.positions);
     rest_.normals = gl::make_buffer<glm::vec3>(face.normals);
     rest_.tangents = gl::make_buffer<glm::vec4>(face.tangents);
-    deformed_.positions = gl::make_buffer<glm::vec3>(face.positions);
-    deformed_.normals = gl::make_buffer<glm::vec3>(face.normals);
-    deformed_.tangents = gl::make_buffer<glm::vec4>(face.tangents);
 
     moved_ranges_ = ranges(NormalMethod::authored);
     moved_ranges_recomputed_ = ranges(NormalMethod::recomputed);
     has_normal_deltas_ = std::ranges::any_of(face.targets, [](const Target& t) { return !t.normal_deltas.empty(); });
     has_tangent_deltas_ = std::ranges::any_of(face.targets, [](const Target& t) { return !t.tangent_deltas.empty(); });
-    if (Status pages = build_pages(largest_block_bytes); !pages) return pages;
-    weights_ = gl::make_buffer(0, nullptr);
+    if (Status pages = build_pages(largest_block_bytes, renderer); !pages) return pages;
 
     std::vector<std::string_view> defines;
     if (has_normal_deltas_) defines.emplace_back("HAS_NORMAL_DELTAS");
@@ -97,17 +94,25 @@ Status StreamOut::build(std::uint64_t largest_block_bytes) {
     if (!face.joints.empty()) {
         joint_indices_ = gl::make_buffer<glm::u16vec4>(face.joints);
         joint_weights_ = gl::make_buffer<glm::vec4>(face.joint_weights);
-        skinned_ = make_surface(0);
+        std::vector<std::uint32_t> first_joint_of_skin;
         std::uint32_t first_joint = 0;
         for (const Skin& part : face.skins) {
-            first_joint_of_skin_.push_back(first_joint);
+            first_joint_of_skin.push_back(first_joint);
             first_joint += static_cast<std::uint32_t>(part.joints.size());
+        }
+        for (const Primitive& primitive : face.primitives) {
+            const auto node = std::ranges::find_if(face.nodes, [&](const Node& candidate) {
+                return candidate.mesh == static_cast<std::int32_t>(primitive.mesh) && candidate.skin >= 0;
+            });
+            // A primitive without a skin has zero joint weights and passes through.
+            first_joint_of_primitive_.push_back(
+                node != face.nodes.end() ? first_joint_of_skin[static_cast<std::size_t>(node->skin)] : 0);
         }
     }
     return Done{};
 }
 
-Status StreamOut::build_pages(std::uint64_t largest_block_bytes) {
+Status DeformModel::build_pages(std::uint64_t largest_block_bytes, const std::string& renderer) {
     const Face& face = *face_;
     sparse_ = std::make_unique<SparseBlocks>(face);
     const std::uint64_t largest = largest_block_bytes / vec3_bytes;
@@ -120,8 +125,8 @@ Status StreamOut::build_pages(std::uint64_t largest_block_bytes) {
         while (last < target_count && sparse_->first_delta[last + 1] - first_delta <= largest) ++last;
         if (last == first) {
             return Error{face.path + ": target \"" + face.targets[first].name + "\" moves " +
-                         std::to_string(face.targets[first].vertices.size()) + " vertices; " + device_.info().renderer +
-                         " holds " + std::to_string(largest) + " in one block"};
+                         std::to_string(face.targets[first].vertices.size()) + " vertices; " + renderer + " holds " +
+                         std::to_string(largest) + " in one block"};
         }
         Page page;
         page.first_target = first;
@@ -136,22 +141,18 @@ Status StreamOut::build_pages(std::uint64_t largest_block_bytes) {
                 gathered.insert(gathered.end(), part.begin(), part.end());
                 gathered.resize(sparse_->first_delta[t + 1] - first_delta, glm::vec3(0));
             }
-            target_bytes_ += gathered.size() * vec3_bytes;
             return gl::make_buffer<glm::vec3>(gathered);
         };
         page.positions = gather(&Target::position_deltas);
         page.normals = has_normal_deltas_ ? gather(&Target::normal_deltas) : gl::make_buffer(0, nullptr);
         page.tangents = has_tangent_deltas_ ? gather(&Target::tangent_deltas) : gl::make_buffer(0, nullptr);
-        page.first_entry =
-            gl::make_buffer((sparse_->block_count + 1) * sizeof(std::uint32_t), nullptr, GL_DYNAMIC_STORAGE_BIT);
-        page.entries = gl::make_buffer(0, nullptr);
         pages_.push_back(std::move(page));
         first = last;
     }
     return Done{};
 }
 
-std::vector<StreamOut::Range> StreamOut::ranges(NormalMethod method) const {
+std::vector<DeformModel::Range> DeformModel::ranges(NormalMethod method) const {
     std::vector<Range> result;
     for (const Primitive& primitive : face_->primitives) {
         if (primitive.normal_source == NormalSource::rest) continue;
@@ -166,7 +167,34 @@ std::vector<StreamOut::Range> StreamOut::ranges(NormalMethod method) const {
     return result;
 }
 
+StreamOut::StreamOut(std::shared_ptr<DeformModel> model) : model_(std::move(model)) {
+    for (std::size_t p = 0; p < model_->pages_.size(); ++p) {
+        ActiveList list;
+        list.first_entry = gl::make_buffer((model_->sparse_->block_count + 1) * sizeof(std::uint32_t), nullptr,
+                                           GL_DYNAMIC_STORAGE_BIT);
+        list.entries = gl::make_buffer(0, nullptr);
+        lists_.push_back(std::move(list));
+    }
+    weights_ = gl::make_buffer(0, nullptr);
+    if (!model_->face().joints.empty()) skinned_ = model_->make_surface();
+}
+
+/// What no target moves stays as it is at rest.
+void StreamOut::prepare() {
+    if (deformed_.positions) return;
+    deformed_ = model_->make_surface();
+    const std::size_t count = model_->face().positions.size();
+    if (count == 0) return;
+    const auto copy = [&](const gl::Buffer& from, const gl::Buffer& to, std::size_t stride) {
+        glCopyNamedBufferSubData(from.name(), to.name(), 0, 0, static_cast<GLsizeiptr>(count * stride));
+    };
+    copy(rest().positions, deformed_.positions, vec3_bytes);
+    copy(rest().normals, deformed_.normals, vec3_bytes);
+    copy(rest().tangents, deformed_.tangents, vec4_bytes);
+}
+
 void StreamOut::set_active(std::span<const ActiveTarget> active) {
+    prepare();
     const bool same_set =
         lists_built_ && std::ranges::equal(active, active_, {}, &ActiveTarget::target, &ActiveTarget::target);
     active_.assign(active.begin(), active.end());
@@ -175,35 +203,39 @@ void StreamOut::set_active(std::span<const ActiveTarget> active) {
     upload(weights_, weights_capacity_, active_weights_.data(), active_weights_.size() * sizeof(float));
     if (same_set) return;
     lists_built_ = true;
-    for (Page& page : pages_) {
-        lists_.build(*sparse_, active_, page.first_target, page.last_target);
-        glNamedBufferSubData(page.first_entry.name(), 0,
-                             static_cast<GLsizeiptr>(lists_.first_entry.size() * sizeof(std::uint32_t)),
-                             lists_.first_entry.data());
-        upload(page.entries, page.entry_capacity, lists_.entries.data(), lists_.entries.size() * sizeof(BlockEntry));
-        page.active_deltas = 0;
+    const SparseBlocks& sparse = *model_->sparse_;
+    BlockLists& made = model_->lists_;
+    for (std::size_t p = 0; p < lists_.size(); ++p) {
+        const DeformModel::Page& page = model_->pages_[p];
+        ActiveList& list = lists_[p];
+        made.build(sparse, active_, page.first_target, page.last_target);
+        glNamedBufferSubData(list.first_entry.name(), 0,
+                             static_cast<GLsizeiptr>(made.first_entry.size() * sizeof(std::uint32_t)),
+                             made.first_entry.data());
+        upload(list.entries, list.entry_capacity, made.entries.data(), made.entries.size() * sizeof(BlockEntry));
+        list.deltas = 0;
         for (const ActiveTarget& entry : active_) {
             if (entry.target < page.first_target || entry.target >= page.last_target) continue;
-            page.active_deltas += sparse_->first_delta[entry.target + 1] - sparse_->first_delta[entry.target];
+            list.deltas += sparse.first_delta[entry.target + 1] - sparse.first_delta[entry.target];
         }
     }
 }
 
-void StreamOut::begin(const gl::Program& program) {
+void DeformModel::begin(const gl::Program& program) {
     glUseProgram(program.name());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, no_attachments_.name());
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, feedback_.name());
     glEnable(GL_RASTERIZER_DISCARD);
 }
 
-void StreamOut::bind_source(const SurfaceBuffers& surface) {
+void DeformModel::bind_source(const SurfaceBuffers& surface) {
     source(vertex_array_, BLUSH_POSITION_ATTRIBUTE, surface.positions, vec3_bytes);
     source(vertex_array_, BLUSH_NORMAL_ATTRIBUTE, surface.normals, vec3_bytes);
     source(vertex_array_, BLUSH_TANGENT_ATTRIBUTE, surface.tangents, vec4_bytes);
     glBindVertexArray(vertex_array_.name());
 }
 
-void StreamOut::stream(const Range& range, const SurfaceBuffers& destination) {
+void DeformModel::stream(const Range& range, const SurfaceBuffers& destination) {
     const auto part = [&](GLuint index, const gl::Buffer& buffer, std::size_t stride) {
         glTransformFeedbackBufferRange(feedback_.name(), index, buffer.name(),
                                        static_cast<GLintptr>(range.first * stride),
@@ -217,53 +249,57 @@ void StreamOut::stream(const Range& range, const SurfaceBuffers& destination) {
     glEndTransformFeedback();
 }
 
-SurfaceBuffers StreamOut::make_surface(GLbitfield flags) const {
+SurfaceBuffers DeformModel::make_surface() const {
     const std::size_t count = face_->positions.size();
-    return {gl::make_buffer(count * vec3_bytes, nullptr, flags), gl::make_buffer(count * vec3_bytes, nullptr, flags),
-            gl::make_buffer(count * vec4_bytes, nullptr, flags)};
+    return {gl::make_buffer(count * vec3_bytes, nullptr), gl::make_buffer(count * vec3_bytes, nullptr),
+            gl::make_buffer(count * vec4_bytes, nullptr)};
 }
 
-SurfaceBuffers& StreamOut::scratch(std::size_t index) {
-    if (!scratch_[index].positions) scratch_[index] = make_surface(0);
+SurfaceBuffers& DeformModel::scratch(std::size_t index) {
+    if (!scratch_[index].positions) scratch_[index] = make_surface();
     return scratch_[index];
 }
 
 void StreamOut::add_targets_sparse(NormalMethod method) {
-    begin(sparse_program_);
+    DeformModel& model = *model_;
+    model.begin(model.sparse_program_);
     work_ = {};
-    const std::vector<Range>& moved = method == NormalMethod::authored ? moved_ranges_ : moved_ranges_recomputed_;
+    const std::vector<Range>& moved =
+        method == NormalMethod::authored ? model.moved_ranges_ : model.moved_ranges_recomputed_;
     // Pages without an active target are skipped, but one pass has to run even when nothing is active.
-    std::vector<Page>::iterator last_page = pages_.begin();
-    for (auto page = pages_.begin(); page != pages_.end(); ++page) {
-        if (page->active_deltas != 0) last_page = page;
+    std::size_t last_page = 0;
+    for (std::size_t p = 0; p < lists_.size(); ++p) {
+        if (lists_[p].deltas != 0) last_page = p;
     }
-    const SurfaceBuffers* from = &rest_;
-    for (auto page = pages_.begin(); page != pages_.end(); ++page) {
-        const bool last = page == last_page;
-        if (page->active_deltas == 0 && !last) continue;
-        const SurfaceBuffers& to = last ? deformed_ : scratch(work_.passes % 2);
-        bind_source(*from);
-        bind_block(BLUSH_FIRST_ENTRY_BINDING, page->first_entry);
-        bind_block(BLUSH_ENTRIES_BINDING, page->entries);
+    const SurfaceBuffers* from = &model.rest_;
+    for (std::size_t p = 0; p < lists_.size(); ++p) {
+        const DeformModel::Page& page = model.pages_[p];
+        const ActiveList& list = lists_[p];
+        const bool last = p == last_page;
+        if (list.deltas == 0 && !last) continue;
+        const SurfaceBuffers& to = last ? deformed_ : model.scratch(work_.passes % 2);
+        model.bind_source(*from);
+        bind_block(BLUSH_FIRST_ENTRY_BINDING, list.first_entry);
+        bind_block(BLUSH_ENTRIES_BINDING, list.entries);
         bind_block(BLUSH_WEIGHTS_BINDING, weights_);
-        bind_block(BLUSH_POSITION_DELTAS_BINDING, page->positions);
-        bind_block(BLUSH_NORMAL_DELTAS_BINDING, page->normals);
-        bind_block(BLUSH_TANGENT_DELTAS_BINDING, page->tangents);
-        glUniform1ui(0, page->first_delta);
+        bind_block(BLUSH_POSITION_DELTAS_BINDING, page.positions);
+        bind_block(BLUSH_NORMAL_DELTAS_BINDING, page.normals);
+        bind_block(BLUSH_TANGENT_DELTAS_BINDING, page.tangents);
+        glUniform1ui(0, page.first_delta);
         glUniform1i(1, last ? 1 : 0);
         for (const Range& range : moved) {
             glUniform1i(2, range.recomputed ? 1 : 0);
-            stream(range, to);
+            model.stream(range, to);
         }
         ++work_.passes;
-        work_.deltas += page->active_deltas;
+        work_.deltas += list.deltas;
         from = &to;
         if (last) break;
     }
     glDisable(GL_RASTERIZER_DISCARD);
 }
 
-gl::Buffer& StreamOut::dense_target(std::uint32_t index) {
+gl::Buffer& DeformModel::dense_target(std::uint32_t index) {
     // Keeps every target of a usual face resident and bounds the memory of an unusual one.
     constexpr std::size_t most_resident = 256;
     const auto found = dense_targets_.find(index);
@@ -283,21 +319,24 @@ gl::Buffer& StreamOut::dense_target(std::uint32_t index) {
 }
 
 void StreamOut::add_targets_in_passes(NormalMethod method) {
-    begin(pass_program_);
+    DeformModel& model = *model_;
+    model.begin(model.pass_program_);
     work_ = {};
-    const std::size_t targets_a_pass = has_tangent_deltas_ ? BLUSH_TARGETS_A_PASS_WITH_TANGENTS : BLUSH_TARGETS_A_PASS;
-    const std::size_t attributes_a_target = has_tangent_deltas_ ? 3 : 2;
-    const std::size_t section_bytes = face_->positions.size() * vec3_bytes;
-    const std::vector<Range>& moved = method == NormalMethod::authored ? moved_ranges_ : moved_ranges_recomputed_;
+    const std::size_t targets_a_pass =
+        model.has_tangent_deltas_ ? BLUSH_TARGETS_A_PASS_WITH_TANGENTS : BLUSH_TARGETS_A_PASS;
+    const std::size_t attributes_a_target = model.has_tangent_deltas_ ? 3 : 2;
+    const std::size_t section_bytes = model.face_->positions.size() * vec3_bytes;
+    const std::vector<Range>& moved =
+        method == NormalMethod::authored ? model.moved_ranges_ : model.moved_ranges_recomputed_;
     for (GLuint i = 0; i < targets_a_pass * attributes_a_target; ++i) {
-        attribute(vertex_array_, BLUSH_TARGET_ATTRIBUTE + i, 3);
+        attribute(model.vertex_array_, BLUSH_TARGET_ATTRIBUTE + i, 3);
     }
 
     const std::size_t passes = std::max<std::size_t>(1, (active_.size() + targets_a_pass - 1) / targets_a_pass);
-    const SurfaceBuffers* from = &rest_;
+    const SurfaceBuffers* from = &model.rest_;
     for (std::size_t pass = 0; pass < passes; ++pass) {
         const bool last = pass + 1 == passes;
-        const SurfaceBuffers& to = last ? deformed_ : scratch(pass % 2);
+        const SurfaceBuffers& to = last ? deformed_ : model.scratch(pass % 2);
         const std::size_t first = pass * targets_a_pass;
         const std::size_t in_pass = std::min(targets_a_pass, active_.size() - first);
         std::array<float, BLUSH_TARGETS_A_PASS> weights{};
@@ -306,32 +345,32 @@ void StreamOut::add_targets_in_passes(NormalMethod method) {
             for (std::size_t part = 0; part < attributes_a_target; ++part) {
                 const auto location = static_cast<GLuint>(BLUSH_TARGET_ATTRIBUTE + k * attributes_a_target + part);
                 if (k < in_pass) {
-                    source(vertex_array_, location, dense_target(active_[first + k].target), vec3_bytes,
+                    source(model.vertex_array_, location, model.dense_target(active_[first + k].target), vec3_bytes,
                            part * section_bytes);
                 } else {
-                    source(vertex_array_, location, rest_.normals, vec3_bytes);  // bound, not read
+                    source(model.vertex_array_, location, model.rest_.normals, vec3_bytes);  // bound, not read
                 }
             }
         }
-        bind_source(*from);
+        model.bind_source(*from);
         glUniform1fv(0, static_cast<GLsizei>(targets_a_pass), weights.data());
         glUniform1i(4, static_cast<GLint>(in_pass));
         glUniform1i(5, last ? 1 : 0);
         for (const Range& range : moved) {
             glUniform1i(6, range.recomputed ? 1 : 0);
-            stream(range, to);
+            model.stream(range, to);
         }
         ++work_.passes;
-        work_.deltas += in_pass * face_->positions.size();
+        work_.deltas += in_pass * model.face_->positions.size();
         from = &to;
     }
     for (GLuint i = 0; i < targets_a_pass * attributes_a_target; ++i) {
-        glDisableVertexArrayAttrib(vertex_array_.name(), BLUSH_TARGET_ATTRIBUTE + i);
+        glDisableVertexArrayAttrib(model.vertex_array_.name(), BLUSH_TARGET_ATTRIBUTE + i);
     }
     glDisable(GL_RASTERIZER_DISCARD);
 }
 
-void StreamOut::ensure_topology() {
+void DeformModel::ensure_topology() {
     if (first_triangle_) return;
     const NormalTopology topology(*face_);
     first_triangle_ = gl::make_buffer<std::uint32_t>(topology.first_triangle);
@@ -347,19 +386,20 @@ void StreamOut::ensure_topology() {
 }
 
 void StreamOut::turn_normals(NormalMethod method) {
-    ensure_topology();
-    begin(normals_program_);
-    glBindVertexArray(normals_vertex_array_.name());
+    DeformModel& model = *model_;
+    model.ensure_topology();
+    model.begin(model.normals_program_);
+    glBindVertexArray(model.normals_vertex_array_.name());
     bind_block(BLUSH_POSITIONS_BINDING, deformed_.positions);
-    bind_block(BLUSH_FIRST_TRIANGLE_BINDING, first_triangle_);
-    bind_block(BLUSH_TRIANGLES_BINDING, triangles_);
-    glTransformFeedbackBufferBase(feedback_.name(), 2, 0);
-    for (const Range& range : method == NormalMethod::authored ? moved_ranges_ : moved_ranges_recomputed_) {
+    bind_block(BLUSH_FIRST_TRIANGLE_BINDING, model.first_triangle_);
+    bind_block(BLUSH_TRIANGLES_BINDING, model.triangles_);
+    glTransformFeedbackBufferBase(model.feedback_.name(), 2, 0);
+    for (const Range& range : method == NormalMethod::authored ? model.moved_ranges_ : model.moved_ranges_recomputed_) {
         if (!range.recomputed) continue;
-        glTransformFeedbackBufferRange(feedback_.name(), 0, deformed_.normals.name(),
+        glTransformFeedbackBufferRange(model.feedback_.name(), 0, deformed_.normals.name(),
                                        static_cast<GLintptr>(range.first * vec3_bytes),
                                        static_cast<GLsizeiptr>(range.count * vec3_bytes));
-        glTransformFeedbackBufferRange(feedback_.name(), 1, deformed_.tangents.name(),
+        glTransformFeedbackBufferRange(model.feedback_.name(), 1, deformed_.tangents.name(),
                                        static_cast<GLintptr>(range.first * vec4_bytes),
                                        static_cast<GLsizeiptr>(range.count * vec4_bytes));
         glBeginTransformFeedback(GL_POINTS);
@@ -370,28 +410,27 @@ void StreamOut::turn_normals(NormalMethod method) {
 }
 
 void StreamOut::skin(const SurfaceBuffers& from, std::span<const glm::mat4> skinned_from_mesh) {
-    assert(!face_->joints.empty() && "StreamOut::skin: the face has no joints");
+    DeformModel& model = *model_;
+    const Face& face = model.face();
+    assert(!face.joints.empty() && "StreamOut::skin: the face has no joints");
     upload(joints_, joints_capacity_, skinned_from_mesh.data(), skinned_from_mesh.size_bytes());
-    begin(skin_program_);
+    model.begin(model.skin_program_);
     bind_block(BLUSH_JOINTS_BINDING, joints_);
-    glEnableVertexArrayAttrib(vertex_array_.name(), BLUSH_JOINTS_ATTRIBUTE);
-    glVertexArrayAttribIFormat(vertex_array_.name(), BLUSH_JOINTS_ATTRIBUTE, 4, GL_UNSIGNED_SHORT, 0);
-    glVertexArrayAttribBinding(vertex_array_.name(), BLUSH_JOINTS_ATTRIBUTE, BLUSH_JOINTS_ATTRIBUTE);
-    source(vertex_array_, BLUSH_JOINTS_ATTRIBUTE, joint_indices_, sizeof(glm::u16vec4));
-    attribute(vertex_array_, BLUSH_JOINT_WEIGHTS_ATTRIBUTE, 4);
-    source(vertex_array_, BLUSH_JOINT_WEIGHTS_ATTRIBUTE, joint_weights_, vec4_bytes);
-    bind_source(from);
-
-    for (const Primitive& primitive : face_->primitives) {
-        const auto node = std::ranges::find_if(face_->nodes, [&](const Node& candidate) {
-            return candidate.mesh == static_cast<std::int32_t>(primitive.mesh) && candidate.skin >= 0;
-        });
-        // A primitive without a skin has zero joint weights and passes through.
-        glUniform1ui(0, node != face_->nodes.end() ? first_joint_of_skin_[static_cast<std::size_t>(node->skin)] : 0);
-        stream({primitive.first_vertex, primitive.vertex_count, false}, skinned_);
+    const gl::VertexArray& array = model.vertex_array_;
+    glEnableVertexArrayAttrib(array.name(), BLUSH_JOINTS_ATTRIBUTE);
+    glVertexArrayAttribIFormat(array.name(), BLUSH_JOINTS_ATTRIBUTE, 4, GL_UNSIGNED_SHORT, 0);
+    glVertexArrayAttribBinding(array.name(), BLUSH_JOINTS_ATTRIBUTE, BLUSH_JOINTS_ATTRIBUTE);
+    source(array, BLUSH_JOINTS_ATTRIBUTE, model.joint_indices_, sizeof(glm::u16vec4));
+    attribute(array, BLUSH_JOINT_WEIGHTS_ATTRIBUTE, 4);
+    source(array, BLUSH_JOINT_WEIGHTS_ATTRIBUTE, model.joint_weights_, vec4_bytes);
+    model.bind_source(from);
+    for (std::size_t p = 0; p < face.primitives.size(); ++p) {
+        const Primitive& primitive = face.primitives[p];
+        glUniform1ui(0, model.first_joint_of_primitive_[p]);
+        model.stream({primitive.first_vertex, primitive.vertex_count, false}, skinned_);
     }
-    glDisableVertexArrayAttrib(vertex_array_.name(), BLUSH_JOINTS_ATTRIBUTE);
-    glDisableVertexArrayAttrib(vertex_array_.name(), BLUSH_JOINT_WEIGHTS_ATTRIBUTE);
+    glDisableVertexArrayAttrib(array.name(), BLUSH_JOINTS_ATTRIBUTE);
+    glDisableVertexArrayAttrib(array.name(), BLUSH_JOINT_WEIGHTS_ATTRIBUTE);
     glDisable(GL_RASTERIZER_DISCARD);
 }
 

@@ -16,24 +16,32 @@ glm::mat3 normal_matrix(const glm::mat4& matrix) {
 
 }  // namespace
 
-void draw_elements(CharacterState& state, const Primitive& primitive) {
+void draw_elements(FrameState& frame, CharacterState& character, const Primitive& primitive) {
     const std::size_t offset_bytes = std::size_t{primitive.first_index} * sizeof(std::uint32_t);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(primitive.index_count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(offset_bytes));  // NOLINT(performance-no-int-to-ptr): GL's own way
-    state.report.triangles_drawn += primitive.index_count / 3;
+    frame.drew(character, primitive.index_count / 3);
 }
 
-void write_draw_blocks(CharacterState& state) {
-    const auto write = [&](std::size_t index, const glm::mat4& world_from_mesh) {
+void use_program(FrameState& frame, const gl::Program& program) {
+    if (frame.program_in_use == program.name()) return;
+    glUseProgram(program.name());
+    frame.program_in_use = program.name();
+    ++frame.report.program_switches;
+}
+
+void forget_program(FrameState& frame) { frame.program_in_use = 0; }
+
+void write_draw_blocks(CharacterState& character) {
+    DrawBlocks& blocks = character.draw_blocks;
+    for (std::size_t n = 0; n < character.shading_from_node.size(); ++n) {
         shared::DrawBlock block{};
-        block.world_from_mesh = world_from_mesh;
-        block.world_normal_from_mesh = glm::mat4(normal_matrix(world_from_mesh));
-        std::memcpy(&state.model.draw_staging[index * state.model.draw_stride], &block, sizeof(block));
-    };
-    for (std::size_t n = 0; n < state.face.nodes.size(); ++n) write(n, state.world_from_node[n]);
-    write(state.face.nodes.size(), glm::mat4(1));
-    glNamedBufferSubData(state.model.draw_blocks.name(), 0, static_cast<GLsizeiptr>(state.model.draw_staging.size()),
-                         state.model.draw_staging.data());
+        block.world_from_mesh = character.shading_from_node[n];
+        block.world_normal_from_mesh = glm::mat4(normal_matrix(character.shading_from_node[n]));
+        std::memcpy(&blocks.staging[n * blocks.stride], &block, sizeof(block));
+    }
+    glNamedBufferSubData(blocks.buffer.name(), 0, static_cast<GLsizeiptr>(blocks.staging.size()),
+                         blocks.staging.data());
 }
 
 }  // namespace blush

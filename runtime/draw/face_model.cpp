@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "runtime/appearance/signed_texture.h"
+#include "runtime/frame/device_state.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush {
@@ -86,7 +87,7 @@ constexpr std::array<std::string_view, 19> defines_of_bits = {
     "WRINKLES",       "WRINKLE_DIFFERENCES",    "BLOOD",      "EYE",           "MOUTH",        "HAIR",
     "PIGMENT_COLOR"};
 
-std::uint32_t permutation_of(const Material& material, MaterialKind kind, std::uint32_t frame_bits) {
+std::uint32_t permutation_bits(const Material& material, MaterialKind kind, std::uint32_t frame_bits) {
     const auto uses = textures_of(material);
     std::uint32_t bits = frame_bits;
     for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? bit_of_texture[t] : 0U;
@@ -98,19 +99,6 @@ std::uint32_t permutation_of(const Material& material, MaterialKind kind, std::u
     if (kind == MaterialKind::mouth) bits |= frame_bits & shade_mouth;
     if (kind == MaterialKind::hair) bits |= frame_bits & shade_hair;
     return kind == MaterialKind::skin ? bits | shade_skin : bits & ~of_skin;
-}
-
-Status make_permutation(std::map<std::uint32_t, gl::Program>& programs, std::uint32_t bits) {
-    if (programs.contains(bits)) return Done{};
-    std::vector<std::string_view> defines;
-    for (std::size_t t = 0; t < defines_of_bits.size(); ++t) {
-        if ((bits >> t & 1U) != 0) defines.push_back(defines_of_bits[t]);
-    }
-    if ((bits & shade_specular_map) != 0) defines.emplace_back("SPECULAR_MAP");
-    Result<gl::Program> made = gl::make_program({"draw/face.vert", "draw/face.frag", defines});
-    if (!made) return made.error();
-    programs.emplace(bits, *std::move(made));
-    return Done{};
 }
 
 /// The normal map among textures_of().
@@ -145,14 +133,24 @@ Material default_material() {
 
 }  // namespace
 
-Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_texels) {
-    FaceModel model;
-    model.indices = gl::make_buffer<std::uint32_t>(face.indices);
-    model.uv0 = gl::make_buffer<glm::vec2>(face.uv0);
-    model.uv1 = gl::make_buffer<glm::vec2>(face.uv1);
+Result<std::shared_ptr<FaceModel>> FaceModel::create(const Device& device, const FaceAsset& asset) {
+    const std::shared_ptr<FaceModel> model = on_device(new FaceModel(device, asset));
+    if (Status built = model->build(); !built) return built.error();
+    return model;
+}
 
-    model.vertex_array = gl::make_vertex_array();
-    const GLuint array = model.vertex_array.name();
+Status FaceModel::build() {
+    const Face& face = asset.face();
+    const int largest_texture_side_texels = device.info().largest_texture_side_texels;
+    Result<std::shared_ptr<DeformModel>> deforms = DeformModel::create(device, face);
+    if (!deforms) return deforms.error();
+    deform = *std::move(deforms);
+    indices = gl::make_buffer<std::uint32_t>(face.indices);
+    uv0 = gl::make_buffer<glm::vec2>(face.uv0);
+    uv1 = gl::make_buffer<glm::vec2>(face.uv1);
+
+    vertex_array = gl::make_vertex_array();
+    const GLuint array = vertex_array.name();
     const auto attribute = [array](GLuint location, GLint components) {
         glEnableVertexArrayAttrib(array, location);
         glVertexArrayAttribFormat(array, location, components, GL_FLOAT, GL_FALSE, 0);
@@ -163,28 +161,23 @@ Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_t
     attribute(BLUSH_TANGENT_ATTRIBUTE, 4);
     attribute(BLUSH_UV0_ATTRIBUTE, 2);
     attribute(BLUSH_UV1_ATTRIBUTE, 2);
-    glVertexArrayVertexBuffer(array, BLUSH_UV0_ATTRIBUTE, model.uv0.name(), 0, sizeof(glm::vec2));
-    glVertexArrayVertexBuffer(array, BLUSH_UV1_ATTRIBUTE, model.uv1.name(), 0, sizeof(glm::vec2));
-    glVertexArrayElementBuffer(array, model.indices.name());
-
-    model.frame_block = gl::make_buffer(sizeof(shared::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    model.draw_stride = block_stride(sizeof(shared::DrawBlock));
-    model.draw_staging.resize(model.draw_stride * (face.nodes.size() + 1));
-    model.draw_blocks = gl::make_buffer(model.draw_staging.size(), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    glVertexArrayVertexBuffer(array, BLUSH_UV0_ATTRIBUTE, uv0.name(), 0, sizeof(glm::vec2));
+    glVertexArrayVertexBuffer(array, BLUSH_UV1_ATTRIBUTE, uv1.name(), 0, sizeof(glm::vec2));
+    glVertexArrayElementBuffer(array, indices.name());
 
     // An image may stand in the place of a colour, of numbers and of normals: each has a texture of its own.
-    model.srgb_textures.resize(face.images.size());
-    model.linear_textures.resize(face.images.size());
-    model.normal_textures.resize(face.images.size());
+    srgb_textures.resize(face.images.size());
+    linear_textures.resize(face.images.size());
+    normal_textures.resize(face.images.size());
     std::vector<float> normal_ranges(face.images.size(), 1);
     for (const Material& material : face.materials) {
         const auto uses = textures_of(material);
         for (std::size_t t = 0; t < uses.size(); ++t) {
             if (uses[t]->image < 0) continue;
             const auto image = static_cast<std::size_t>(uses[t]->image);
-            gl::Texture& slot = (t == normal_texture  ? model.normal_textures
-                                 : texture_is_srgb[t] ? model.srgb_textures
-                                                      : model.linear_textures)[image];
+            gl::Texture& slot = (t == normal_texture  ? normal_textures
+                                 : texture_is_srgb[t] ? srgb_textures
+                                                      : linear_textures)[image];
             if (slot) continue;
             if (Status fits = check_side(face.images[image], largest_texture_side_texels); !fits)
                 return Error{face.path + ": " + fits.error().message};
@@ -198,27 +191,27 @@ Result<FaceModel> FaceModel::create(const Face& face, int largest_texture_side_t
         }
     }
 
-    model.material_stride = block_stride(sizeof(shared::MaterialBlock));
-    std::vector<std::byte> blocks(model.material_stride * (face.materials.size() + 1));
+    material_stride = block_stride(sizeof(shared::MaterialBlock));
+    std::vector<std::byte> blocks(material_stride * (face.materials.size() + 1));
     const auto write_material = [&](std::size_t index, const Material& material) {
         const std::int32_t image = material.normal.image;
         const shared::MaterialBlock block =
             block_of(material, image < 0 ? 1.0F : normal_ranges[static_cast<std::size_t>(image)]);
-        std::memcpy(&blocks[index * model.material_stride], &block, sizeof(block));
+        std::memcpy(&blocks[index * material_stride], &block, sizeof(block));
     };
     for (std::size_t m = 0; m < face.materials.size(); ++m) write_material(m, face.materials[m]);
     write_material(face.materials.size(), default_material());
-    model.material_blocks = gl::make_buffer<std::byte>(blocks);
+    material_blocks = gl::make_buffer<std::byte>(blocks);
 
-    for (std::size_t s = 0; s < model.samplers.size(); ++s) {
-        model.samplers[s] = gl::make_sampler();
-        const GLuint name = model.samplers[s].name();
+    for (std::size_t s = 0; s < samplers.size(); ++s) {
+        samplers[s] = gl::make_sampler();
+        const GLuint name = samplers[s].name();
         glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
         glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
         glSamplerParameteri(name, GL_TEXTURE_WRAP_S, (s & 1) != 0 ? GL_REPEAT : GL_CLAMP_TO_EDGE);
         glSamplerParameteri(name, GL_TEXTURE_WRAP_T, (s & 2) != 0 ? GL_REPEAT : GL_CLAMP_TO_EDGE);
     }
-    return model;
+    return Done{};
 }
 
 const std::vector<gl::Texture>& FaceModel::textures_for(std::size_t use) const {
@@ -231,17 +224,6 @@ void FaceModel::bind_surface(const SurfaceBuffers& surface) const {
     glVertexArrayVertexBuffer(array, BLUSH_NORMAL_ATTRIBUTE, surface.normals.name(), 0, sizeof(glm::vec3));
     glVertexArrayVertexBuffer(array, BLUSH_TANGENT_ATTRIBUTE, surface.tangents.name(), 0, sizeof(glm::vec4));
     glBindVertexArray(array);
-}
-
-Status FaceModel::prepare(const Face& face, const std::vector<MaterialKind>& kinds, std::uint32_t frame_bits) {
-    for (std::size_t m = 0; m < face.materials.size(); ++m) {
-        const std::uint32_t bits = permutation_of(face.materials[m], kinds[m], frame_bits);
-        if (Status made = make_permutation(programs, bits); !made) return made;
-    }
-    const bool uses_default =
-        std::ranges::any_of(face.primitives, [](const Primitive& primitive) { return primitive.material < 0; });
-    if (!uses_default) return Done{};
-    return make_permutation(programs, permutation_of(default_material(), kinds.back(), frame_bits));
 }
 
 namespace {
@@ -268,15 +250,33 @@ void FaceModel::bind_maps(const Face& face, std::int32_t material) const {
     }
 }
 
-void FaceModel::bind_material(const Face& face, std::int32_t material, MaterialKind kind,
-                              std::uint32_t frame_bits) const {
-    glUseProgram(programs.at(permutation_of(material_of(face, material), kind, frame_bits)).name());
-    bind_maps(face, material);
+DrawBlocks DrawBlocks::create(std::size_t count) {
+    DrawBlocks blocks;
+    blocks.stride = block_stride(sizeof(shared::DrawBlock));
+    blocks.staging.resize(blocks.stride * count);
+    blocks.buffer = gl::make_buffer(blocks.staging.size(), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    return blocks;
 }
 
-void FaceModel::bind_draw(std::size_t index) const {
-    glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_DRAW_BINDING, draw_blocks.name(),
-                      static_cast<GLintptr>(index * draw_stride), sizeof(shared::DrawBlock));
+void DrawBlocks::bind(std::size_t index) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_DRAW_BINDING, buffer.name(), static_cast<GLintptr>(index * stride),
+                      sizeof(shared::DrawBlock));
+}
+
+std::uint32_t permutation_of(const Face& face, std::int32_t material, MaterialKind kind, std::uint32_t frame_bits) {
+    return permutation_bits(material_of(face, material), kind, frame_bits);
+}
+
+gl::Program shade_program(DeviceState& device, std::uint32_t permutation) {
+    gl::Program& program = device.store.get<ShadePrograms>().made[permutation];
+    if (program) return program;
+    std::vector<std::string_view> defines;
+    for (std::size_t t = 0; t < defines_of_bits.size(); ++t) {
+        if ((permutation >> t & 1U) != 0) defines.push_back(defines_of_bits[t]);
+    }
+    if ((permutation & shade_specular_map) != 0) defines.emplace_back("SPECULAR_MAP");
+    gl::require_program(program, {"draw/face.vert", "draw/face.frag", defines});
+    return program;
 }
 
 }  // namespace blush

@@ -1,7 +1,8 @@
 #include "runtime/draw/hair_core.h"
 
 #include <array>
-#include <cassert>
+
+#include "runtime/draw/draw_face.h"
 
 namespace blush {
 namespace {
@@ -10,30 +11,34 @@ struct HairCorePrograms {
     std::array<gl::Program, 4> made;  // bit 0: with a texture, bit 1: seen from a light
 };
 
-}  // namespace
-
-bool is_hair_card(const CharacterState& state, const Primitive& primitive) {
-    if (primitive.material < 0) return false;
-    const auto material = static_cast<std::size_t>(primitive.material);
-    return state.material_kind[material] == MaterialKind::hair &&
-           state.face.materials[material].alpha_mode != AlphaMode::opaque;
+std::size_t index_of(bool textured, SeenFrom from) {
+    return (textured ? 1U : 0U) + (from == SeenFrom::light ? 2U : 0U);
 }
 
-void bind_hair_core(CharacterState& state, const Primitive& primitive, SeenFrom from) {
-    const Material& material = state.face.materials[static_cast<std::size_t>(primitive.material)];
-    const bool textured = material.base_color_srgb.image >= 0;
-    gl::Program& program =
-        state.own<HairCorePrograms>().made[(textured ? 1U : 0U) + (from == SeenFrom::light ? 2U : 0U)];
-    if (!program) {
-        constexpr std::array<std::string_view, 1> with_texture = {"BASE_COLOR_MAP"};
+}  // namespace
+
+bool is_hair_card(const CharacterState& character, const Primitive& primitive) {
+    if (primitive.material < 0) return false;
+    const auto material = static_cast<std::size_t>(primitive.material);
+    return character.facts_of_face.material_kind[material] == MaterialKind::hair &&
+           character.face.materials[material].alpha_mode != AlphaMode::opaque;
+}
+
+void require_hair_cores(FrameState& frame, SeenFrom from) {
+    constexpr std::array<std::string_view, 1> with_texture = {"BASE_COLOR_MAP"};
+    for (const bool textured : {false, true}) {
         const std::span<const std::string_view> defines(with_texture.data(), textured ? 1 : 0);
-        Result<gl::Program> made = gl::make_program(
+        gl::require_program(
+            frame.shared_own<HairCorePrograms>().made[index_of(textured, from)],
             {from == SeenFrom::light ? "light/shadow.vert" : "draw/face.vert", "draw/hair_core.frag", defines});
-        assert(made && "hair_core.frag does not compile");
-        program = *std::move(made);
     }
-    glUseProgram(program.name());
-    state.model.bind_maps(state.face, primitive.material);
+}
+
+void bind_hair_core(FrameState& frame, CharacterState& character, const Primitive& primitive, SeenFrom from) {
+    const Material& material = character.face.materials[static_cast<std::size_t>(primitive.material)];
+    const bool textured = material.base_color_srgb.image >= 0;
+    use_program(frame, frame.shared_own<HairCorePrograms>().made[index_of(textured, from)]);
+    character.model->bind_maps(character.face, primitive.material);
 }
 
 }  // namespace blush

@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "rig/head/skin_material.h"
-#include "runtime/effects/scattering.h"
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/clip_bounds.h"
-#include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
+#include "runtime/light/scatter_projection.h"
 
 namespace blush {
 namespace {
@@ -49,37 +48,34 @@ SkinSurface find_skin(const Face& face) {
     return skin;
 }
 
-void place_skin(CharacterState& state) {
-    const double set_scale = state.settings.number(scattering_effect.name, "millimetres_a_unit");
-    state.millimetres_a_unit = set_scale > 0 ? set_scale : state.scale.millimetres_a_unit;
-    SkinSurface& skin = state.skin;
-    skin.on_screen = false;
-    skin.pixels_a_mm = 0;
+SkinOnScreen place_skin(const FrameState& frame, const CharacterState& character) {
+    const SkinSurface& skin = character.facts_of_face.skin;
+    SkinOnScreen result;
     float reach = 0;
-    for (const ActiveTarget& entry : state.active) reach += std::abs(entry.weight) * skin.target_reach[entry.target];
-
-    const ScatterProjection projection = scatter_projection(*state.view, state.millimetres_a_unit);
-    const Camera& camera = state.view->camera;
+    for (const ActiveTarget& entry : character.active()) {
+        reach += std::abs(entry.weight) * skin.target_reach[entry.target];
+    }
+    const ScatterProjection projection = scatter_projection(frame, character.millimetres_a_unit);
     for (const SkinSurface::Part& part : skin.parts) {
-        const glm::mat4& world = state.world_from_node[part.node];
-        const glm::mat4 view = camera.view_from_world * world;
+        const glm::mat4 view = character.view_from_shading * character.shading_from_node[part.node];
         Bounds bounds = part.bounds;
         bounds.low -= reach;
         bounds.high += reach;
         // Joints move a surface anywhere; then, and where a number is not finite, it may be seen, and be near.
-        const bool known = !state.facts.has_joints && std::isfinite(reach) && std::isfinite(largest_scale(view));
-        if (known && outside_view(clip_corners(camera.clip_from_view * view, bounds))) continue;
-        skin.on_screen = true;
+        const bool known = !character.facts.has_joints && std::isfinite(reach) && std::isfinite(largest_scale(view));
+        if (known && outside_view(clip_corners(frame.clip_from_view * view, bounds))) continue;
+        result.on_screen = true;
         double nearest = 0;
         if (known) {
             nearest = std::numeric_limits<double>::max();
             for (const glm::vec4& corner : clip_corners(view, bounds)) {
-                nearest = std::min(nearest, static_cast<double>(-corner.z) * state.millimetres_a_unit);
+                nearest = std::min(nearest, static_cast<double>(-corner.z) * character.millimetres_a_unit);
             }
         }
         const glm::dvec2 pixels = projection.pixels_a_mm(std::max(nearest, 0.0));
-        skin.pixels_a_mm = std::max({skin.pixels_a_mm, pixels.x, pixels.y});
+        result.pixels_a_mm = std::max({result.pixels_a_mm, pixels.x, pixels.y});
     }
+    return result;
 }
 
 }  // namespace blush

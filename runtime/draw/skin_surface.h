@@ -1,5 +1,5 @@
 #pragma once
-/// Where a character's skin is, and how it stands in the frame being drawn: what the effects on skin ask.
+/// Where a face's skin is, and how it stands in the view being drawn: what the effects on skin ask.
 
 #include <cstddef>
 #include <vector>
@@ -10,6 +10,7 @@
 namespace blush {
 
 struct CharacterState;
+struct FrameState;
 
 struct SkinSurface {
     /// A primitive that is skin, as a node draws it.
@@ -20,16 +21,16 @@ struct SkinSurface {
     std::vector<bool> material;       ///< whether it is skin, of each material and, last, the default one
     std::vector<Part> parts;          ///< by node; none: the face has no skin
     std::vector<float> target_reach;  ///< of each target: its longest move of skin at weight 1, mesh units
+};
 
-    // Of the frame.
+SkinSurface find_skin(const Face& face);
+
+/// How a character's skin stands in the view being drawn.
+struct SkinOnScreen {
     bool on_screen = false;  ///< it may be seen; false only where it cannot be
     double pixels_a_mm = 0;  ///< on the screen, at the nearest place where skin may be
 };
 
-/// What never changes.
-SkinSurface find_skin(const Face& face);
-
-/// The scale of the face that the settings want, and where that frame's skin is on the screen.
-void place_skin(CharacterState& state);
+SkinOnScreen place_skin(const FrameState& frame, const CharacterState& character);
 
 }  // namespace blush

@@ -25,7 +25,8 @@ constexpr double of_preset = -1;
 
 constexpr std::array<Setting, 12> settings = {{
     {"mode",
-     "view: multisampling with View::samples; none: one sample a pixel; msaa2, msaa4: multisampling; mlaa: the filter "
+     "view: multisampling with ViewFrame::samples; none: one sample a pixel; msaa2, msaa4: multisampling; mlaa: the "
+     "filter "
      "of "
      "2011; smaa_1x: SMAA's filter; smaa_s2x: on two pictures a frame; smaa_t2x: on pictures of two places in turn; "
      "smaa_4x: both; supersampled: the mean of supersampling.factor squared pictures",
@@ -116,8 +117,8 @@ EdgeSettings edge_settings(const EffectSettings& all, EdgeSettings preset) {
     return preset;
 }
 
-void find_settings(CharacterState& state, Antialiasing& own) {
-    const EffectSettings& all = state.settings;
+void find_settings(FrameState& frame, Antialiasing& own) {
+    const EffectSettings& all = frame.settings;
     own.smaa = smaa_preset(static_cast<SmaaPreset>(all.choice("antialiasing", "preset")));
     own.smaa.edges = edge_settings(all, own.smaa.edges);
     own.smaa.search_steps = steps_or(all, "search_steps", 1, largest_search_steps, own.smaa.search_steps);
@@ -128,28 +129,28 @@ void find_settings(CharacterState& state, Antialiasing& own) {
     own.mlaa.edges = edge_settings(all, own.mlaa.edges);
     own.mlaa.search_steps = steps_or(all, "search_steps", 1, largest_mlaa_search_steps, own.mlaa.search_steps);
     // Rows of a frame's textures count upwards, as the offsets do.
-    const std::uint32_t phase = state.own<LastFrame>().phase;
-    own.slices = subsample_slices(state.sampling.sample_offset_pixels(state.picture, phase));
+    const std::uint32_t phase = frame.own<LastFrame>().phase;
+    own.slices = subsample_slices(frame.sampling.sample_offset_pixels(frame.picture, phase));
 }
 
-Need need(const CharacterState& state) {
-    if (!state.sampling.filtered) {
+Need need(const FrameState& frame) {
+    if (!frame.sampling.filtered) {
         return {.on = false,
-                .reason = state.facts.on_screen ? "antialiasing.mode asks for no filter" : nothing_to_draw(state.facts),
+                .reason = frame.facts.on_screen ? "antialiasing.mode asks for no filter" : nothing_to_draw(frame.facts),
                 .can_be_forced = false};
     }
     return {.on = true, .reason = "antialiasing.mode asks for a filter"};
 }
 
-PassTarget target_of(CharacterState& state, const FrameGraph& graph, ResourceId image) {
-    bind_output(state, graph, image);
+PassTarget target_of(FrameState& frame, const FrameGraph& graph, ResourceId image) {
+    bind_output(frame, graph, image);
     const FrameResource& resource = graph[image];
     const bool texture = resource.kind == ResourceKind::texture;
-    return {texture ? state.output_framebuffer.name() : resource.handle, resource.shape.width, resource.shape.height};
+    return {texture ? frame.common->output.name() : resource.handle, resource.shape.width, resource.shape.height};
 }
 
-const AntialiasPasses& passes_of(CharacterState& state) {
-    std::optional<AntialiasPasses>& passes = state.own<Antialiasing>().passes;
+const AntialiasPasses& passes_of(FrameState& frame) {
+    std::optional<AntialiasPasses>& passes = frame.own<Antialiasing>().passes;
     if (passes) return *passes;
     Result<AntialiasPasses> made = AntialiasPasses::create();
     if (!made) {  // as gl::require_program()
@@ -160,76 +161,76 @@ const AntialiasPasses& passes_of(CharacterState& state) {
     return *passes;
 }
 
-ResourceId declare_edges(CharacterState& state, ResourceId guide) {
-    TextureShape shape{PixelFormat::rg8, state.view->width, state.view->height, 1};
-    const ResourceId edges = state.graph.texture("edges", shape);
-    const auto find = [&state, guide, edges](const FrameGraph& graph) {
-        Antialiasing& own = state.own<Antialiasing>();
-        const bool mlaa = state.sampling.mode == AntialiasingMode::mlaa;
-        passes_of(state).edges(graph[guide].handle, graph[state.resources.scene_depth].handle,
+ResourceId declare_edges(FrameState& frame, ResourceId guide) {
+    TextureShape shape{PixelFormat::rg8, frame.view->width, frame.view->height, 1};
+    const ResourceId edges = frame.graph.texture("edges", shape);
+    const auto find = [&frame, guide, edges](const FrameGraph& graph) {
+        Antialiasing& own = frame.own<Antialiasing>();
+        const bool mlaa = frame.sampling.mode == AntialiasingMode::mlaa;
+        passes_of(frame).edges(graph[guide].handle, graph[frame.resources.scene_depth].handle,
                                mlaa ? own.mlaa.edges : own.smaa.edges, meaning_of(Output::display_srgb), own.tiles,
-                               target_of(state, graph, edges));
+                               target_of(frame, graph, edges));
     };
-    state.graph.pass("find edges", find).reads(guide).reads(state.resources.scene_depth).writes(edges);
+    frame.graph.pass("find edges", find).reads(guide).reads(frame.resources.scene_depth).writes(edges);
     return edges;
 }
 
-ResourceId declare_weights(CharacterState& state, ResourceId edges) {
-    TextureShape shape{PixelFormat::rgba8, state.view->width, state.view->height, 1};
-    const ResourceId weights = state.graph.texture("blending weights", shape);
-    const auto weigh = [&state, edges, weights](const FrameGraph& graph) {
-        const Antialiasing& own = state.own<Antialiasing>();
-        const PassTarget target = target_of(state, graph, weights);
-        if (state.sampling.mode == AntialiasingMode::mlaa) {
-            passes_of(state).mlaa_weights(graph[edges].handle, own.mlaa, own.tiles, target);
+ResourceId declare_weights(FrameState& frame, ResourceId edges) {
+    TextureShape shape{PixelFormat::rgba8, frame.view->width, frame.view->height, 1};
+    const ResourceId weights = frame.graph.texture("blending weights", shape);
+    const auto weigh = [&frame, edges, weights](const FrameGraph& graph) {
+        const Antialiasing& own = frame.own<Antialiasing>();
+        const PassTarget target = target_of(frame, graph, weights);
+        if (frame.sampling.mode == AntialiasingMode::mlaa) {
+            passes_of(frame).mlaa_weights(graph[edges].handle, own.mlaa, own.tiles, target);
         } else {
-            passes_of(state).smaa_weights(graph[edges].handle, own.smaa, own.slices, own.tiles, target);
+            passes_of(frame).smaa_weights(graph[edges].handle, own.smaa, own.slices, own.tiles, target);
         }
     };
-    state.graph.pass("weigh edges", weigh).reads(edges).writes(weights);
+    frame.graph.pass("weigh edges", weigh).reads(edges).writes(weights);
     return weights;
 }
 
-void blend_pass(CharacterState& state, const FrameGraph& graph, const Antialiasing::Blend& blend,
+void blend_pass(FrameState& frame, const FrameGraph& graph, const Antialiasing::Blend& blend,
                 const PictureMeaning& meaning) {
-    passes_of(state).blend(graph[blend.image].handle, graph[blend.weights].handle, meaning,
-                           state.own<Antialiasing>().tiles, target_of(state, graph, blend.to));
+    passes_of(frame).blend(graph[blend.image].handle, graph[blend.weights].handle, meaning,
+                           frame.own<Antialiasing>().tiles, target_of(frame, graph, blend.to));
 }
 
 /// Speeds go through the filter as the colours do, so that a blended pixel moves as what it was blended from
 /// (jimenez-2012, 10.4.4; there in the alpha channel, for nothing; here beside it, since alpha is the host's).
-void declare_speeds(CharacterState& state, ResourceId weights) {
-    const TextureShape shape{PixelFormat::r16f, state.view->width, state.view->height, 1};
-    const bool first_of_two = state.picture + 1 < state.sampling.pictures;
-    const ResourceId from = state.resources.velocities;
-    const ResourceId to = first_of_two                   ? first_speeds_store(state, shape, state.graph)
-                          : state.sampling.pictures == 1 ? import_kept_speeds(state)
-                                                         : state.graph.texture("speeds", shape);
-    state.own<Antialiasing>().speeds = {from, weights, to};
-    const auto blend = [&state](const FrameGraph& graph) {
-        blend_pass(state, graph, state.own<Antialiasing>().speeds, meaning_of(Output::linear_hdr));
+void declare_speeds(FrameState& frame, ResourceId weights) {
+    const TextureShape shape{PixelFormat::r16f, frame.view->width, frame.view->height, 1};
+    const bool first_of_two = frame.picture + 1 < frame.sampling.pictures;
+    const ResourceId from = frame.resources.velocities;
+    const ResourceId to = first_of_two                   ? first_speeds_store(frame, shape, frame.graph)
+                          : frame.sampling.pictures == 1 ? import_kept_speeds(frame)
+                                                         : frame.graph.texture("speeds", shape);
+    frame.own<Antialiasing>().speeds = {from, weights, to};
+    const auto blend = [&frame](const FrameGraph& graph) {
+        blend_pass(frame, graph, frame.own<Antialiasing>().speeds, meaning_of(Output::linear_hdr));
     };
-    state.graph.pass("blend speeds", blend).reads(from).reads(weights).writes(to);
-    state.resources.speeds = to;
-    if (first_of_two) state.graph.present(to);
+    frame.graph.pass("blend speeds", blend).reads(from).reads(weights).writes(to);
+    frame.resources.speeds = to;
+    if (first_of_two) frame.graph.present(to);
 }
 
-void declare(CharacterState& state) {
-    Antialiasing& own = state.own<Antialiasing>();
-    find_settings(state, own);
-    const DisplayImages images = next_display(state);
+void declare(FrameState& frame) {
+    Antialiasing& own = frame.own<Antialiasing>();
+    find_settings(frame, own);
+    const DisplayImages images = next_display(frame);
     ResourceId guide = images.from;
-    if (state.view->output == Output::linear_hdr) {
-        guide = state.graph.texture("display values", {PixelFormat::rgba8, state.view->width, state.view->height, 1});
-        declare_tone(state, guide);
+    if (frame.view->output == Output::linear_hdr) {
+        guide = frame.graph.texture("display values", {PixelFormat::rgba8, frame.view->width, frame.view->height, 1});
+        declare_tone(frame, guide);
     }
-    const ResourceId weights = declare_weights(state, declare_edges(state, guide));
+    const ResourceId weights = declare_weights(frame, declare_edges(frame, guide));
     own.colors = {images.from, weights, images.to};
-    const auto blend = [&state](const FrameGraph& graph) {
-        blend_pass(state, graph, state.own<Antialiasing>().colors, meaning_of(state.view->output));
+    const auto blend = [&frame](const FrameGraph& graph) {
+        blend_pass(frame, graph, frame.own<Antialiasing>().colors, meaning_of(frame.view->output));
     };
-    state.graph.pass("blend neighbours", blend).reads(images.from).reads(weights).writes(images.to);
-    if (state.on(velocities_effect)) declare_speeds(state, weights);
+    frame.graph.pass("blend neighbours", blend).reads(images.from).reads(weights).writes(images.to);
+    if (frame.on(velocities_effect)) declare_speeds(frame, weights);
 }
 
 constexpr StudiedMode preset(std::string_view label, std::string_view choice) {
@@ -264,11 +265,11 @@ std::vector<Study> studies(const Device& device, const Face& face, double /*mill
 /// Whatever the settings under test, through the filter with all that it has.
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"light beyond half precision behind the face", "edges and weights stay in range", [](Face&) {}, 1,
-     [](View& view) {
+     [](ViewFrame& view) {
          view.background_linear = {60000, 60000, 60000, 1};
      }},
     {"a picture of one pixel", "no neighbour is read that is not there", [](Face&) {}, 1,
-     [](View& view) { view.width = view.height = 1; }},
+     [](ViewFrame& view) { view.width = view.height = 1; }},
 }};
 
 }  // namespace
@@ -277,6 +278,7 @@ const Effect antialiasing_effect = {
     .name = "antialiasing",
     .what = "edges of the picture are found and smoothed",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::filter,
     .need = need,
     .declare = declare,

@@ -37,11 +37,6 @@ constexpr std::array<Setting, 4> settings = {{
      .default_number = 0.35},
 }};
 
-Need need(const CharacterState& state) {
-    return baker_need(state, state.appearance.pigments.has_value(), "the face's pigments are baked already",
-                      "frames bake nothing, and the face has no maps to draw (blush bake appearance)");
-}
-
 const SkinColourTable& exact_table() {
     // Differs from the model by CIEDE2000 0.002 at most; the model itself takes a millisecond for a hundred colours.
     static const SkinColourTable table(192, 192);
@@ -209,8 +204,6 @@ const Effect appearance_baking_effect = {
     .what = "finds ahead of time what pigments colour the skin",
     .settings = settings,
     .stage = Stage::surface,
-    .need = need,
-    .declare = declare_nothing,
     .studies = studies,
     .hard_cases = hard_cases,
 };

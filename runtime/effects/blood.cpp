@@ -25,34 +25,52 @@ constexpr std::array<Setting, 3> settings = {{
      .default_number = 64},
 }};
 
-Need need(const CharacterState& state) {
-    if (!state.appearance.pigments) {
+Need need(const FrameState& /*frame*/, const CharacterState& character) {
+    if (!character.asset.appearance().pigments) {
         return {.on = false,
                 .reason = "the face has no maps of melanin and hemoglobin (blush bake appearance makes them)",
                 .can_be_forced = false};
     }
-    if (is_hidden(state, "blood")) {
+    if (is_hidden(character.settings, "blood")) {
         return {.on = false, .reason = "blood.shown says no", .can_be_forced = false};
     }
-    if (colour_from_pigments(state)) return {.on = true, .reason = "blood.colour says pigments"};
-    const bool neutral = std::ranges::all_of(state.pose.hemoglobin, [](float share) { return share == 0; });
-    if (neutral && state.pose.hemoglobin_factor == 1) {
+    if (colour_from_pigments(character)) return {.on = true, .reason = "blood.colour says pigments"};
+    const bool neutral = std::ranges::all_of(character.pose.hemoglobin, [](float share) { return share == 0; });
+    if (neutral && character.pose.hemoglobin_factor == 1) {
         return {.on = false, .reason = "the blood is as it is at rest: the skin has the colour of its texture"};
     }
     return {.on = true, .reason = "some expression or state moves blood"};
 }
 
-void declare(CharacterState& state) {
-    BloodTextures& textures = blood_textures(state);
-    if (textures.blended_shares == state.pose.hemoglobin && !state.facts.forced) return;
-    state.resources.blood_change = state.graph.import_framebuffer("blood", 0, {});
-    state.graph.pass("blend blood", [&state](const FrameGraph&) { blend_blood(state); })
-        .writes(state.resources.blood_change);
+bool blends(const FrameState& frame, CharacterState& character) {
+    return character.on(blood_effect) &&
+           (frame.facts.forced || blended_blood(character).shares != character.pose.hemoglobin);
+}
+
+void declare(FrameState& frame) {
+    bool any = false;
+    for (CharacterState* character : frame.characters) {
+        if (!character->on(blood_effect)) continue;
+        const BloodTextures& textures = blood_textures(*character);
+        character->resources.blood_change =
+            frame.graph.import_texture("blood", blended_blood(*character).texture.name(), textures.blended_shape);
+        any |= blends(frame, *character);
+    }
+    if (!any) return;
+    const auto blend_all = [&frame](const FrameGraph&) {
+        for (CharacterState* character : frame.characters) {
+            if (blends(frame, *character)) blend_blood(frame, *character);
+        }
+    };
+    frame.graph.pass("blend blood", blend_all);
+    for (CharacterState* character : frame.characters) {
+        if (blends(frame, *character)) frame.graph.writes(character->resources.blood_change);
+    }
 }
 
 std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
     std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
-    if (!probe || !probe->state().appearance.pigments) return {};
+    if (!probe || !probe->state().asset.appearance().pigments) return {};
     Study study{"anger on the face's texture, 256 x 256 points",
                 "equation 7.6 and the table on the CPU",
                 "CIEDE2000",
@@ -87,7 +105,7 @@ const Effect blood_effect = {
     .what = "skin takes the colour of the blood in it",
     .settings = settings,
     .stage = Stage::light,
-    .need = need,
+    .character_need = need,
     .declare = declare,
     .studies = studies,
     .hard_cases = hard_cases,

@@ -31,97 +31,97 @@ struct Bloom {
     ResourceId result{};
 };
 
-double number(const CharacterState& state, std::string_view setting) {
-    return state.settings.number(bloom_effect.name, setting);
+double number(const FrameState& frame, std::string_view setting) {
+    return frame.settings.number(bloom_effect.name, setting);
 }
 
-Need need(const CharacterState& state) {
-    if (number(state, "strength") == 0) {
+Need need(const FrameState& frame) {
+    if (number(frame, "strength") == 0) {
         return {.on = false, .reason = "bloom.strength is 0", .can_be_forced = false};
     }
     return {.on = true, .reason = "bloom.strength asks for it"};
 }
 
-void bind(CharacterState& state, const FrameGraph& graph, const gl::Program& program, ResourceId from, ResourceId to) {
-    bind_output(state, graph, to);
+void bind(FrameState& frame, const FrameGraph& graph, const gl::Program& program, ResourceId from, ResourceId to) {
+    bind_output(frame, graph, to);
     glUseProgram(program.name());
     glBindTextureUnit(0, graph[from].handle);
     glBindSampler(0, 0);
     glBindSampler(1, 0);
 }
 
-void halve(CharacterState& state, const FrameGraph& graph, std::size_t level) {
-    Bloom& own = state.own<Bloom>();
-    bind(state, graph, level == 1 ? own.first : own.down, own.halves[level - 1], own.halves[level]);
-    if (level == 1) glUniform1f(0, static_cast<float>(number(state, "threshold")));
-    draw_screen(state);
+void halve(FrameState& frame, const FrameGraph& graph, std::size_t level) {
+    Bloom& own = frame.own<Bloom>();
+    bind(frame, graph, level == 1 ? own.first : own.down, own.halves[level - 1], own.halves[level]);
+    if (level == 1) glUniform1f(0, static_cast<float>(number(frame, "threshold")));
+    draw_screen(frame);
 }
 
-void enlarge(CharacterState& state, const FrameGraph& graph, std::size_t level) {
-    Bloom& own = state.own<Bloom>();
-    bind(state, graph, own.up, own.halves[level], own.spread[level]);
+void enlarge(FrameState& frame, const FrameGraph& graph, std::size_t level) {
+    Bloom& own = frame.own<Bloom>();
+    bind(frame, graph, own.up, own.halves[level], own.spread[level]);
     glBindTextureUnit(1, graph[own.spread[level + 1]].handle);
     glUniform1f(0, 1.0F / static_cast<float>(own.levels - level + 1));
-    draw_screen(state);
+    draw_screen(frame);
 }
 
-void add(CharacterState& state, const FrameGraph& graph) {
-    Bloom& own = state.own<Bloom>();
-    bind(state, graph, own.add, own.halves[0], own.result);
+void add(FrameState& frame, const FrameGraph& graph) {
+    Bloom& own = frame.own<Bloom>();
+    bind(frame, graph, own.add, own.halves[0], own.result);
     glBindTextureUnit(1, graph[own.spread[1]].handle);
-    glUniform1f(0, static_cast<float>(number(state, "strength")));
-    glUniform1f(1, static_cast<float>(number(state, "threshold")));
-    draw_screen(state);
+    glUniform1f(0, static_cast<float>(number(frame, "strength")));
+    glUniform1f(1, static_cast<float>(number(frame, "threshold")));
+    draw_screen(frame);
 }
 
-void declare(CharacterState& state) {
-    Bloom& own = state.own<Bloom>();
+void declare(FrameState& frame) {
+    Bloom& own = frame.own<Bloom>();
     static constexpr std::array<std::string_view, 1> first_defines = {"FIRST"};
     gl::require_program(own.first, {"screen.vert", "camera/bloom_down.frag", first_defines});
     gl::require_program(own.down, {"screen.vert", "camera/bloom_down.frag"});
     gl::require_program(own.up, {"screen.vert", "camera/bloom_up.frag"});
     gl::require_program(own.add, {"screen.vert", "camera/bloom_add.frag"});
 
-    const TextureShape full{PixelFormat::rgba16f, state.view->width, state.view->height, 1};
+    const TextureShape full{PixelFormat::rgba16f, frame.view->width, frame.view->height, 1};
     TextureShape shape = full;
-    own.levels = bloom_levels(number(state, "radius"), full.width, full.height);
-    own.halves[0] = state.resources.scene_color;
+    own.levels = bloom_levels(number(frame, "radius"), full.width, full.height);
+    own.halves[0] = frame.resources.scene_color;
     std::array<TextureShape, most_levels + 1> shapes{};
     for (std::size_t k = 1; k <= own.levels; ++k) {
         shape.width = (shape.width + 1) / 2;
         shape.height = (shape.height + 1) / 2;
         shapes[k] = shape;
-        own.halves[k] = state.graph.texture("bloom, halved", shape);
-        state.graph.pass("bloom: halve", [&state, k](const FrameGraph& graph) { halve(state, graph, k); })
+        own.halves[k] = frame.graph.texture("bloom, halved", shape);
+        frame.graph.pass("bloom: halve", [&frame, k](const FrameGraph& graph) { halve(frame, graph, k); })
             .reads(own.halves[k - 1])
             .writes(own.halves[k]);
     }
     own.spread[own.levels] = own.halves[own.levels];
     for (std::size_t k = own.levels - 1; k > 0; --k) {
-        own.spread[k] = state.graph.texture("bloom, spread", shapes[k]);
-        state.graph.pass("bloom: enlarge", [&state, k](const FrameGraph& graph) { enlarge(state, graph, k); })
+        own.spread[k] = frame.graph.texture("bloom, spread", shapes[k]);
+        frame.graph.pass("bloom: enlarge", [&frame, k](const FrameGraph& graph) { enlarge(frame, graph, k); })
             .reads(own.halves[k])
             .reads(own.spread[k + 1])
             .writes(own.spread[k]);
     }
-    own.result = state.graph.texture("scene colour, with bloom", full);
-    state.graph.pass("bloom: add", [&state](const FrameGraph& graph) { add(state, graph); })
+    own.result = frame.graph.texture("scene colour, with bloom", full);
+    frame.graph.pass("bloom: add", [&frame](const FrameGraph& graph) { add(frame, graph); })
         .reads(own.halves[0])
         .reads(own.spread[1])
         .writes(own.result);
-    state.resources.scene_color = own.result;
+    frame.resources.scene_color = own.result;
 }
 
 constexpr std::array<HardCase, 3> hard_cases = {{
     {"a frame of one pixel", "nothing to spread over", [](Face&) {}, 0,
-     [](View& view) { view.width = view.height = 1; }},
+     [](ViewFrame& view) { view.width = view.height = 1; }},
     {"a black frame", "black everywhere",
      [](Face& face) {
          for (Primitive& primitive : face.primitives) primitive.index_count = 0;
      },
-     0, [](View& view) { view.background_linear = glm::vec4(0); }},
+     0, [](ViewFrame& view) { view.background_linear = glm::vec4(0); }},
     {"a background as bright as radiance may be", "no sum overflows", [](Face&) {}, 0,
-     [](View& view) { view.background_linear = glm::vec4(60000); }},
+     [](ViewFrame& view) { view.background_linear = glm::vec4(60000); }},
 }};
 
 }  // namespace
@@ -130,6 +130,7 @@ const Effect bloom_effect = {
     .name = "bloom",
     .what = "bright light spreads over the picture",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::scene,
     .need = need,
     .declare = declare,

@@ -20,30 +20,43 @@ constexpr std::array<Setting, 1> settings = {{
      method_choices, sparse},
 }};
 
-Need need(const CharacterState& state) {
-    if (state.facts.active_targets == 0) {
+Need need(const FrameState& /*frame*/, const CharacterState& character) {
+    if (character.facts.active_targets == 0) {
         return {.on = false, .reason = "no target has a weight other than zero: the rest surface is drawn as it is"};
     }
-    if (state.facts.deformation_current) {
+    if (character.facts.deformation_current) {
         return {.on = false, .reason = "weights and settings are those of an earlier frame, whose result still stands"};
     }
     return {.on = true, .reason = "some target has a weight other than zero"};
 }
 
-void declare(CharacterState& state) {
-    const auto deform = [&state](const FrameGraph&) {
-        state.stream_out->set_active(state.active);
-        if (state.settings.choice("deformation", "method") == passes) {
-            state.stream_out->add_targets_in_passes(state.normal_method);
-        } else {
-            state.stream_out->add_targets_sparse(state.normal_method);
+void deform(CharacterState& character) {
+    StreamOut& stream_out = character.stream_out;
+    stream_out.set_active(character.active());
+    if (character.settings.choice("deformation", "method") == passes) {
+        stream_out.add_targets_in_passes(character.normal_method);
+    } else {
+        stream_out.add_targets_sparse(character.normal_method);
+    }
+    character.report->deltas_added = stream_out.last_work().deltas;
+    ++character.report->stream_outs;
+}
+
+void declare(FrameState& frame) {
+    const auto deform_all = [&frame](const FrameGraph&) {
+        for (CharacterState* character : frame.characters) {
+            if (!character->on(deformation_effect)) continue;
+            deform(*character);
+            frame.report.deltas_added += character->report->deltas_added;
         }
-        state.report.deltas_added = state.stream_out->last_work().deltas;
     };
-    state.graph.pass("deform", deform)
-        .writes(state.resources.positions)
-        .writes(state.resources.normals)
-        .writes(state.resources.tangents);
+    frame.graph.pass("deform", deform_all);
+    for (const CharacterState* character : frame.characters) {
+        if (!character->on(deformation_effect)) continue;
+        frame.graph.writes(character->resources.positions)
+            .writes(character->resources.normals)
+            .writes(character->resources.tangents);
+    }
 }
 
 std::string work_of(StreamOut& stream_out, std::size_t active) {
@@ -168,7 +181,7 @@ const Effect deformation_effect = {
     .name = "deformation",
     .what = "blend shapes move the surface",
     .settings = settings,
-    .need = need,
+    .character_need = need,
     .declare = declare,
     .studies = studies,
     .hard_cases = hard_cases,

@@ -5,15 +5,15 @@
 #include <numbers>
 
 #include "rig/light/skin_reflectance.h"
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/measure/sphere_study.h"
 
 namespace blush {
 namespace {
 
-Need need(const CharacterState& state) {
-    if (state.lighting->environment == nullptr) {
+Need need(const FrameState& frame) {
+    if (frame.lighting->environment == nullptr) {
         return {.on = false, .reason = "the lighting has no environment", .can_be_forced = false};
     }
     return {.on = true, .reason = "the lighting has an environment"};
@@ -102,10 +102,12 @@ const Lighting& lighting_of(float value) {
 }
 
 constexpr std::array<HardCase, 3> hard_cases = {{
-    {"an all-black environment", "a black face", [](Face&) {}, 0, [](View& view) { view.lighting = &lighting_of(0); }},
-    {"an environment of NaN", "counts as black", [](Face&) {}, 0, [](View& view) { view.lighting = &lighting_of(-1); }},
+    {"an all-black environment", "a black face", [](Face&) {}, 0,
+     [](ViewFrame& view) { view.lighting = &lighting_of(0); }},
+    {"an environment of NaN", "counts as black", [](Face&) {}, 0,
+     [](ViewFrame& view) { view.lighting = &lighting_of(-1); }},
     {"an environment beyond half precision", "limited to what a half float holds", [](Face&) {}, 0,
-     [](View& view) { view.lighting = &lighting_of(1); }},
+     [](ViewFrame& view) { view.lighting = &lighting_of(1); }},
 }};
 
 }  // namespace
@@ -116,7 +118,6 @@ const Effect environment_effect = {
     .settings = {},
     .stage = Stage::light,
     .need = need,
-    .declare = [](CharacterState&) {},
     .studies = studies,
     .hard_cases = hard_cases,
 };

@@ -49,48 +49,48 @@ struct Exposure {
     ResourceId cells{};
 };
 
-double number(const CharacterState& state, std::string_view setting) {
-    return state.settings.number(exposure_effect.name, setting);
+double number(const FrameState& frame, std::string_view setting) {
+    return frame.settings.number(exposure_effect.name, setting);
 }
 
-Need need(const CharacterState& state) {
+Need need(const FrameState& frame) {
     const auto off = [](std::string_view reason) {
         return Need{.on = false, .reason = reason, .can_be_forced = false};
     };
-    if (state.settings.choice(exposure_effect.name, "mode") == 0) return off("exposure.mode is fixed");
-    if (state.view->output == Output::linear_hdr) return off("the view asks for radiance, which has no exposure");
+    if (frame.settings.choice(exposure_effect.name, "mode") == 0) return off("exposure.mode is fixed");
+    if (frame.view->output == Output::linear_hdr) return off("the view asks for radiance, which has no exposure");
     return {.on = true, .reason = "exposure.mode is automatic"};
 }
 
-void meter(CharacterState& state, const FrameGraph& graph, ResourceId from) {
-    Exposure& own = state.own<Exposure>();
-    bind_output(state, graph, own.cells);
+void meter(FrameState& frame, const FrameGraph& graph, ResourceId from) {
+    Exposure& own = frame.own<Exposure>();
+    bind_output(frame, graph, own.cells);
     glUseProgram(own.cells_program.name());
     glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[from].handle);
     glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
-    glUniform1i(0, state.settings.choice(exposure_effect.name, "metering"));
-    draw_screen(state);
+    glUniform1i(0, frame.settings.choice(exposure_effect.name, "metering"));
+    draw_screen(frame);
 }
 
-void adapt(CharacterState& state, const FrameGraph& graph) {
-    Exposure& own = state.own<Exposure>();
-    bind_output(state, graph, state.resources.log2_exposure);
+void adapt(FrameState& frame, const FrameGraph& graph) {
+    Exposure& own = frame.own<Exposure>();
+    bind_output(frame, graph, frame.resources.log2_exposure);
     glUseProgram(own.adapt_program.name());
     glBindTextureUnit(0, graph[own.cells].handle);
     glBindTextureUnit(1, own.log2_exposure[1 - own.now].name());
     glBindSampler(0, 0);
     glBindSampler(1, 0);
-    const auto value = [&state](std::string_view setting) { return static_cast<float>(number(state, setting)); };
+    const auto value = [&frame](std::string_view setting) { return static_cast<float>(number(frame, setting)); };
     glUniform3f(0, value("key"), value("stops"), value("range_stops"));
     glUniform3f(1, static_cast<float>(own.passed_seconds), value("darker_half_life"), value("brighter_half_life"));
-    draw_screen(state);
+    draw_screen(frame);
 }
 
-void declare(CharacterState& state) {
-    Exposure& own = state.own<Exposure>();
+void declare(FrameState& frame) {
+    Exposure& own = frame.own<Exposure>();
     constexpr TextureShape one{PixelFormat::r32f, 1, 1, 1};
-    if (state.picture == 0) {  // all pictures of a frame are exposed alike
-        const View& view = *state.view;
+    if (frame.picture == 0) {  // all pictures of a frame are exposed alike
+        const ViewFrame& view = *frame.view;
         for (gl::Texture& texture : own.log2_exposure) {
             if (texture) continue;
             texture = gl::make_texture(GL_TEXTURE_2D);
@@ -104,17 +104,17 @@ void declare(CharacterState& state) {
         own.seen_seconds = view.time_seconds;
         own.now = 1 - own.now;
     }
-    state.resources.log2_exposure = state.graph.import_texture("exposure", own.log2_exposure[own.now].name(), one);
-    if (state.picture != 0) return;
-    own.cells = state.graph.texture("luminance of cells",
+    frame.resources.log2_exposure = frame.graph.import_texture("exposure", own.log2_exposure[own.now].name(), one);
+    if (frame.picture != 0) return;
+    own.cells = frame.graph.texture("luminance of cells",
                                     {PixelFormat::rgba32f, BLUSH_EXPOSURE_CELLS, BLUSH_EXPOSURE_CELLS, 1});
-    const auto metered = [&state, from = state.resources.scene_color](const FrameGraph& graph) {
-        meter(state, graph, from);
+    const auto metered = [&frame, from = frame.resources.scene_color](const FrameGraph& graph) {
+        meter(frame, graph, from);
     };
-    state.graph.pass("meter", metered).reads(state.resources.scene_color).writes(own.cells);
-    state.graph.pass("adapt exposure", [&state](const FrameGraph& graph) { adapt(state, graph); })
+    frame.graph.pass("meter", metered).reads(frame.resources.scene_color).writes(own.cells);
+    frame.graph.pass("adapt exposure", [&frame](const FrameGraph& graph) { adapt(frame, graph); })
         .reads(own.cells)
-        .writes(state.resources.log2_exposure);
+        .writes(frame.resources.log2_exposure);
 }
 
 constexpr std::array<HardCase, 3> hard_cases = {{
@@ -122,11 +122,11 @@ constexpr std::array<HardCase, 3> hard_cases = {{
      [](Face& face) {
          for (Primitive& primitive : face.primitives) primitive.index_count = 0;
      },
-     0, [](View& view) { view.background_linear = glm::vec4(0); }},
+     0, [](ViewFrame& view) { view.background_linear = glm::vec4(0); }},
     {"a frame of one pixel", "metered like any other", [](Face&) {}, 0,
-     [](View& view) { view.width = view.height = 1; }},
+     [](ViewFrame& view) { view.width = view.height = 1; }},
     {"a background as bright as radiance may be", "as dark as exposure.range_stops lets it become", [](Face&) {}, 0,
-     [](View& view) { view.background_linear = glm::vec4(60000); }},
+     [](ViewFrame& view) { view.background_linear = glm::vec4(60000); }},
 }};
 
 }  // namespace
@@ -135,6 +135,7 @@ const Effect exposure_effect = {
     .name = "exposure",
     .what = "the camera follows the light",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::scene,
     .need = need,
     .declare = declare,

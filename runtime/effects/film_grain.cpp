@@ -20,38 +20,39 @@ struct FilmGrain {
     gl::Program program;
 };
 
-double number(const CharacterState& state, std::string_view setting) {
-    return state.settings.number(film_grain_effect.name, setting);
+double number(const FrameState& frame, std::string_view setting) {
+    return frame.settings.number(film_grain_effect.name, setting);
 }
 
-Need need(const CharacterState& state) {
+Need need(const FrameState& frame) {
     const auto off = [](std::string_view reason) {
         return Need{.on = false, .reason = reason, .can_be_forced = false};
     };
-    if (number(state, "strength") == 0) return off("grain.strength is 0");
-    if (state.view->output == Output::linear_hdr) return off("the view asks for radiance, and film is a display");
+    if (number(frame, "strength") == 0) return off("grain.strength is 0");
+    if (frame.view->output == Output::linear_hdr) return off("the view asks for radiance, and film is a display");
     return {.on = true, .reason = "grain.strength asks for it"};
 }
 
-void declare(CharacterState& state) {
-    gl::require_program(state.own<FilmGrain>().program, {"screen.vert", "camera/film_grain.frag"});
-    const DisplayImages images = next_display(state);
-    const auto pass = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
-        bind_output(state, graph, to);
-        glUseProgram(state.own<FilmGrain>().program.name());
+void declare(FrameState& frame) {
+    gl::require_program(frame.own<FilmGrain>().program, {"screen.vert", "camera/film_grain.frag"});
+    const DisplayImages images = next_display(frame);
+    const auto pass = [&frame, from = images.from, to = images.to](const FrameGraph& graph) {
+        bind_output(frame, graph, to);
+        glUseProgram(frame.own<FilmGrain>().program.name());
         glBindTextureUnit(0, graph[from].handle);
         glBindSampler(0, 0);
-        glUniform1f(0, static_cast<float>(number(state, "strength")));
-        glUniform1f(1, static_cast<float>(number(state, "size")));
+        glUniform1f(0, static_cast<float>(number(frame, "strength")));
+        glUniform1f(1, static_cast<float>(number(frame, "size")));
         constexpr std::uint32_t seed_step = 0x9e3779b9U;  // 2^32 over the golden ratio: seeds' frames do not meet
-        glUniform1ui(2, state.view->frame_number + seed_step * static_cast<std::uint32_t>(number(state, "seed")));
-        draw_screen(state);
+        glUniform1ui(2, frame.view->frame_number + seed_step * static_cast<std::uint32_t>(number(frame, "seed")));
+        draw_screen(frame);
     };
-    state.graph.pass("film grain", pass).reads(images.from).writes(images.to);
+    frame.graph.pass("film grain", pass).reads(images.from).writes(images.to);
 }
 
 constexpr std::array<HardCase, 1> hard_cases = {{
-    {"a frame of one pixel", "one grain is drawn", [](Face&) {}, 0, [](View& view) { view.width = view.height = 1; }},
+    {"a frame of one pixel", "one grain is drawn", [](Face&) {}, 0,
+     [](ViewFrame& view) { view.width = view.height = 1; }},
 }};
 
 }  // namespace
@@ -60,6 +61,7 @@ const Effect film_grain_effect = {
     .name = "grain",
     .what = "grain of film over the finished picture",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::display,
     .need = need,
     .declare = declare,

@@ -23,56 +23,56 @@ struct Multisampling {
     gl::Program program;
 };
 
-Resolve resolve_of(const CharacterState& state) {
-    const auto wanted = static_cast<Resolve>(state.settings.choice("multisampling", "resolve"));
+Resolve resolve_of(const FrameState& frame) {
+    const auto wanted = static_cast<Resolve>(frame.settings.choice("multisampling", "resolve"));
     if (wanted != Resolve::of_the_view) return wanted;
-    return state.view->output == Output::display_srgb ? Resolve::hdr : Resolve::average;
+    return frame.view->output == Output::display_srgb ? Resolve::hdr : Resolve::average;
 }
 
-Need need(const CharacterState& state) {
-    if (state.sampling.samples == 1) {
+Need need(const FrameState& frame) {
+    if (frame.sampling.samples == 1) {
         return {.on = false,
-                .reason = state.facts.on_screen ? "one sample a pixel is asked for" : nothing_to_draw(state.facts),
+                .reason = frame.facts.on_screen ? "one sample a pixel is asked for" : nothing_to_draw(frame.facts),
                 .can_be_forced = false};
     }
     return {.on = true, .reason = "several samples a pixel are asked for"};
 }
 
-void blit(CharacterState& state, const FrameGraph& graph, ResourceId from, ResourceId to) {
-    const auto width = static_cast<GLint>(state.view->width), height = static_cast<GLint>(state.view->height);
-    glNamedFramebufferTexture(state.output_framebuffer.name(), GL_COLOR_ATTACHMENT0, graph[from].handle, 0);
-    glNamedFramebufferTexture(state.resolved_framebuffer.name(), GL_COLOR_ATTACHMENT0, graph[to].handle, 0);
-    glBlitNamedFramebuffer(state.output_framebuffer.name(), state.resolved_framebuffer.name(), 0, 0, width, height, 0,
-                           0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void blit(FrameState& frame, const FrameGraph& graph, ResourceId from, ResourceId to) {
+    const auto width = static_cast<GLint>(frame.view->width), height = static_cast<GLint>(frame.view->height);
+    glNamedFramebufferTexture(frame.common->output.name(), GL_COLOR_ATTACHMENT0, graph[from].handle, 0);
+    glNamedFramebufferTexture(frame.common->resolved.name(), GL_COLOR_ATTACHMENT0, graph[to].handle, 0);
+    glBlitNamedFramebuffer(frame.common->output.name(), frame.common->resolved.name(), 0, 0, width, height, 0, 0, width,
+                           height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void weigh(CharacterState& state, const FrameGraph& graph, ResourceId from, ResourceId to) {
-    const Multisampling& own = state.own<Multisampling>();
-    bind_output(state, graph, to);
+void weigh(FrameState& frame, const FrameGraph& graph, ResourceId from, ResourceId to) {
+    const Multisampling& own = frame.own<Multisampling>();
+    bind_output(frame, graph, to);
     glUseProgram(own.program.name());
-    glBindTextureUnit(0, graph[state.resources.scene_color_multisampled].handle);
+    glBindTextureUnit(0, graph[frame.resources.scene_color_multisampled].handle);
     glBindTextureUnit(1, graph[from].handle);
-    glUniform1f(0, state.view->exposure);
-    draw_screen(state);
+    glUniform1f(0, frame.view->exposure);
+    draw_screen(frame);
 }
 
-void declare_one(CharacterState& state, ResourceId from, ResourceId to) {
-    const auto resolve = [&state, from, to](const FrameGraph& graph) {
-        if (resolve_of(state) == Resolve::average) {
-            blit(state, graph, from, to);
+void declare_one(FrameState& frame, ResourceId from, ResourceId to) {
+    const auto resolve = [&frame, from, to](const FrameGraph& graph) {
+        if (resolve_of(frame) == Resolve::average) {
+            blit(frame, graph, from, to);
         } else {
-            weigh(state, graph, from, to);
+            weigh(frame, graph, from, to);
         }
     };
-    state.graph.pass("resolve", resolve).reads(state.resources.scene_color_multisampled).reads(from).writes(to);
+    frame.graph.pass("resolve", resolve).reads(frame.resources.scene_color_multisampled).reads(from).writes(to);
 }
 
-void declare(CharacterState& state) {
-    Multisampling& own = state.own<Multisampling>();
-    if (resolve_of(state) == Resolve::hdr) gl::require_program(own.program, {"screen.vert", "antialias/resolve.frag"});
-    const FrameResources& resources = state.resources;
+void declare(FrameState& frame) {
+    Multisampling& own = frame.own<Multisampling>();
+    if (resolve_of(frame) == Resolve::hdr) gl::require_program(own.program, {"screen.vert", "antialias/resolve.frag"});
+    const FrameResources& resources = frame.resources;
     for (std::size_t i = 0; i < resources.resolve_count; ++i) {
-        declare_one(state, resources.to_resolve[i].from, resources.to_resolve[i].to);
+        declare_one(frame, resources.to_resolve[i].from, resources.to_resolve[i].to);
     }
 }
 
@@ -92,11 +92,11 @@ std::vector<Study> studies(const Device& device, const Face& face, double /*mill
 
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"light beyond half precision behind the face", "the resolve stays finite", [](Face&) {}, 1,
-     [](View& view) {
+     [](ViewFrame& view) {
          view.background_linear = {60000, 60000, 60000, 1};
      }},
     {"negative radiance behind the face", "weights stay between 0 and 1", [](Face&) {}, 1,
-     [](View& view) {
+     [](ViewFrame& view) {
          view.background_linear = {-5, 0, 0, 1};
      }},
 }};
@@ -107,6 +107,7 @@ const Effect multisampling_effect = {
     .name = "multisampling",
     .what = "several samples of coverage a pixel",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::resolve,
     .need = need,
     .declare = declare,

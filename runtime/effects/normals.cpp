@@ -18,30 +18,37 @@ constexpr std::array<Setting, 1> settings = {{
      source_choices, static_cast<std::uint8_t>(NormalMethod::authored)},
 }};
 
-Need need(const CharacterState& state) {
-    if (!state.facts.any_turned_normals) {
+Need need(const FrameState& /*frame*/, const CharacterState& character) {
+    if (!character.facts.any_turned_normals) {
         return {.on = false,
                 .reason = "the deformation adds up all normals: each target that moves the surface brings its own",
                 .can_be_forced = false};
     }
-    if (state.facts.active_targets == 0) {
+    if (character.facts.active_targets == 0) {
         return {.on = false, .reason = "no target has a weight other than zero: the rest normals stand"};
     }
-    if (!state.facts.active_need_turned_normals) {
+    if (!character.facts.active_need_turned_normals) {
         return {.on = false, .reason = "no active target moves a part whose normals have to be turned"};
     }
-    if (state.facts.deformation_current) {
+    if (character.facts.deformation_current) {
         return {.on = false, .reason = "weights and settings are those of an earlier frame, whose result still stands"};
     }
     return {.on = true, .reason = "active targets move parts that have no normals of their own for it"};
 }
 
-void declare(CharacterState& state) {
-    const auto turn = [&state](const FrameGraph&) { state.stream_out->turn_normals(state.normal_method); };
-    state.graph.pass("turn normals", turn)
-        .reads(state.resources.positions)
-        .modifies(state.resources.normals)
-        .modifies(state.resources.tangents);
+void declare(FrameState& frame) {
+    const auto turn_all = [&frame](const FrameGraph&) {
+        for (CharacterState* character : frame.characters) {
+            if (character->on(normals_effect)) character->stream_out.turn_normals(character->normal_method);
+        }
+    };
+    frame.graph.pass("turn normals", turn_all);
+    for (const CharacterState* character : frame.characters) {
+        if (!character->on(normals_effect)) continue;
+        frame.graph.reads(character->resources.positions)
+            .modifies(character->resources.normals)
+            .modifies(character->resources.tangents);
+    }
 }
 
 Study study_of(const Device& device, const Face& face, std::size_t active) {
@@ -125,7 +132,7 @@ const Effect normals_effect = {
     .name = "normals",
     .what = "normals follow the deformed surface",
     .settings = settings,
-    .need = need,
+    .character_need = need,
     .declare = declare,
     .studies = studies,
     .hard_cases = hard_cases,

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/measure/frame_study.h"
 
 namespace blush {
@@ -17,14 +17,14 @@ constexpr std::array<Setting, 2> settings = {{
     {"bounces", "on: what hides a place shines as the place itself does; off: it is black", bounce_choices, 0},
 }};
 
-Need need(const CharacterState& state) {
-    if (!state.occlusion) {
+Need need(const FrameState& frame, const CharacterState& character) {
+    if (!character.facts_of_face.occlusion) {
         return {.on = false, .reason = "no coefficients were baked for the face", .can_be_forced = false};
     }
-    if (state.settings.choice("occlusion", "method") == 1) {
+    if (character.settings.choice("occlusion", "method") == 1) {
         return {.on = false, .reason = "occlusion.method is off", .can_be_forced = false};
     }
-    const Lighting& lighting = *state.lighting;
+    const Lighting& lighting = *frame.lighting;
     if (lighting.environment == nullptr && lighting.sky_radiance_linear == glm::vec3(0) &&
         lighting.ground_radiance_linear == glm::vec3(0)) {
         return {.on = false, .reason = "no light comes from all around"};
@@ -45,8 +45,7 @@ const Effect occlusion_effect = {
     .what = "the face hides light from all around from itself",
     .settings = settings,
     .stage = Stage::light,
-    .need = need,
-    .declare = [](CharacterState&) {},
+    .character_need = need,
     .studies = studies,
     .hard_cases = hard_cases,
 };

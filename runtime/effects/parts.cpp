@@ -1,5 +1,6 @@
 /// Eyes, the inside of the mouth, and hair: each with a shading of its own, simpler than the skin's. Shading does it
-/// (shaders/draw/parts.glsl). None of them gives light to the skin's diffusion or takes any from it.
+/// (shaders/draw/eye.glsl, mouth.glsl, hair.glsl). None of them gives light to the skin's diffusion or takes any from
+/// it.
 
 #include "runtime/effects/parts.h"
 
@@ -45,11 +46,11 @@ struct Parts {
     std::optional<glm::vec3> mouth_front;  // of the foremost tooth, mesh units
 };
 
-Parts& parts_of(CharacterState& state) {
-    Parts& own = state.own<Parts>();
+Parts& parts_of(CharacterState& character) {
+    Parts& own = character.model->own<Parts>();
     if (own.known) return own;
     own.known = true;
-    const Face& face = state.face;
+    const Face& face = character.face;
     own.cornea_of_its_own = std::ranges::any_of(
         face.materials, [](const Material& material) { return material.name.find("ornea") != std::string::npos; });
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
@@ -58,7 +59,9 @@ Parts& parts_of(CharacterState& state) {
         for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
             const Primitive& primitive = face.primitives[mesh.first_primitive + p];
             if (primitive.material < 0) continue;
-            if (state.material_kind[static_cast<std::size_t>(primitive.material)] != MaterialKind::mouth) continue;
+            if (character.facts_of_face.material_kind[static_cast<std::size_t>(primitive.material)] !=
+                MaterialKind::mouth)
+                continue;
             for (std::uint32_t v = 0; v < primitive.vertex_count; ++v) {
                 const glm::vec3& place = face.positions[primitive.first_vertex + v];
                 if (own.mouth_front && own.mouth_front->z >= place.z) continue;
@@ -70,8 +73,8 @@ Parts& parts_of(CharacterState& state) {
     return own;
 }
 
-Need need(const CharacterState& state) {
-    const bool any = std::ranges::any_of(state.material_kind, [](MaterialKind kind) {
+Need need(const FrameState& /*frame*/, const CharacterState& character) {
+    const bool any = std::ranges::any_of(character.facts_of_face.material_kind, [](MaterialKind kind) {
         return kind == MaterialKind::eye || kind == MaterialKind::mouth || kind == MaterialKind::hair;
     });
     if (!any) {
@@ -111,39 +114,39 @@ constexpr std::array<HardCase, 4> hard_cases = {{
 
 }  // namespace
 
-std::uint32_t parts_bits(const CharacterState& state) {
+std::uint32_t parts_bits(const CharacterState& character) {
     std::uint32_t bits = shade_mouth;
-    if (state.settings.choice(parts_effect.name, "eyes") == 0) bits |= shade_eye;
-    if (state.settings.choice(parts_effect.name, "hair") == 0) bits |= shade_hair;
+    if (character.settings.choice(parts_effect.name, "eyes") == 0) bits |= shade_eye;
+    if (character.settings.choice(parts_effect.name, "hair") == 0) bits |= shade_hair;
     return bits;
 }
 
-void write_parts(CharacterState& state, shared::FrameBlock& block) {
-    const Parts& own = parts_of(state);
-    const auto number = [&state](std::string_view setting) {
-        return static_cast<float>(state.settings.number(parts_effect.name, setting));
+void write_parts(CharacterState& character, shared::FrameBlock& block) {
+    const Parts& own = parts_of(character);
+    const auto number = [&character](std::string_view setting) {
+        return static_cast<float>(character.settings.number(parts_effect.name, setting));
     };
     block.parts = {number("lid_shade"), own.cornea_of_its_own ? 0 : number("iris_depth"), number("mouth_shade"),
                    number("tear_roughness")};
     if (own.mouth_front) {
-        const glm::mat4& world = state.world_from_node[own.mouth_node];
+        const glm::mat4& world = character.shading_from_node[own.mouth_node];
         const glm::vec3 forward(world[2]);
         const float length = glm::length(forward);
         block.mouth_front = world * glm::vec4(*own.mouth_front, 1);
         block.mouth_forward = glm::vec4(length > 0 ? forward / length : glm::vec3(0, 0, 1), 0);
     }
-    const EyeSockets& sockets = state.eye_sockets;
+    const EyeSockets& sockets = character.facts_of_face.eye_sockets;
     if (sockets.eyes.size() != 2) return;
     block.eye_data = {1, static_cast<int>(sockets.eyes[0].pole), static_cast<int>(sockets.eyes[1].pole),
                       sockets.lids.size() == 2 ? 1 : 0};
     for (std::size_t e = 0; e < 2; ++e) {
         const Eyeball& eye = sockets.eyes[e];
-        const glm::mat4& world = state.world_from_node[eye.node];
+        const glm::mat4& world = character.shading_from_node[eye.node];
         block.eyes[e] = world * glm::vec4(eye.centre, 1);
         block.eyes[e].w = eye.radius * glm::length(glm::vec3(world[0]));
     }
     if (sockets.lids.size() != 2) return;
-    block.world_from_lids = state.world_from_node[sockets.lid_node];
+    block.world_from_lids = character.shading_from_node[sockets.lid_node];
     for (std::size_t e = 0; e < 2; ++e) {
         for (std::size_t k = 0; k < lid_point_count; ++k) {
             const auto set = [&](std::size_t lid, std::uint32_t vertex) {
@@ -161,8 +164,7 @@ const Effect parts_effect = {
     .what = "eyes, mouth and hair are shaded each in their own way",
     .settings = settings,
     .stage = Stage::light,
-    .need = need,
-    .declare = [](CharacterState&) {},
+    .character_need = need,
     .studies = studies,
     .hard_cases = hard_cases,
 };

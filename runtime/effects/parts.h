@@ -8,8 +8,8 @@
 namespace blush {
 
 /// ShadeBits of the kinds of parts that are shaded in their own way.
-std::uint32_t parts_bits(const CharacterState& state);
+std::uint32_t parts_bits(const CharacterState& character);
 /// Where the eyes, their lids and the mouth are in this frame.
-void write_parts(CharacterState& state, shared::FrameBlock& block);
+void write_parts(CharacterState& character, shared::FrameBlock& block);
 
 }  // namespace blush

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/measure/frame_study.h"
 #include "runtime/measure/sphere_study.h"
 
@@ -32,12 +32,13 @@ constexpr std::array<Setting, 3> settings = {{
     {"intensity", "factor on the surface's reflection; 0: all light enters", {}, 0, 0, 1, 1},
 }};
 
-Need need(const CharacterState& state) {
-    if (state.skin.parts.empty()) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
-    if (state.settings.choice("reflection", "model") == 1) {
+Need need(const FrameState& /*frame*/, const CharacterState& character) {
+    if (character.facts_of_face.skin.parts.empty())
+        return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
+    if (character.settings.choice("reflection", "model") == 1) {
         return {.on = false, .reason = "reflection.model is ggx", .can_be_forced = false};
     }
-    if (!state.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
+    if (!character.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
     return {.on = true, .reason = "skin is on the screen"};
 }
 
@@ -99,8 +100,7 @@ const Effect reflection_effect = {
     .what = "skin's oily surface mirrors light and lets the rest in",
     .settings = settings,
     .stage = Stage::light,
-    .need = need,
-    .declare = [](CharacterState&) {},
+    .character_need = need,
     .studies = studies,
     .hard_cases = hard_cases,
 };

@@ -1,6 +1,5 @@
 #include <array>
 
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
 
 namespace blush {
@@ -17,8 +16,8 @@ std::span<const Effect* const> effects() {
     return all;
 }
 
-bool is_hidden(const CharacterState& state, std::string_view effect) {
-    return state.settings.choice(effect, "shown") == 1;
+bool is_hidden(const EffectSettings& settings, std::string_view effect) {
+    return settings.choice(effect, "shown") == 1;
 }
 
 }  // namespace blush

@@ -33,58 +33,58 @@ struct Reprojection {
     gl::Program program;
 };
 
-Need need(const CharacterState& state) {
+Need need(const FrameState& frame) {
     const auto off = [](std::string_view reason) {
         return Need{.on = false, .reason = reason, .can_be_forced = false};
     };
-    const auto mode = static_cast<AntialiasingMode>(state.settings.choice("antialiasing", "mode"));
+    const auto mode = static_cast<AntialiasingMode>(frame.settings.choice("antialiasing", "mode"));
     const bool asked = mode == AntialiasingMode::smaa_t2x || mode == AntialiasingMode::smaa_4x;
     if (!asked) return off("antialiasing.mode takes nothing from the last frame");
-    if (!state.facts.on_screen) return off(nothing_to_draw(state.facts));
-    if (!state.sampling.temporal) {
+    if (!frame.facts.on_screen) return off(nothing_to_draw(frame.facts));
+    if (!frame.sampling.temporal) {
         return off("there are no velocities (velocities.source=none): every frame stands alone");
     }
-    if (!state.facts.has_last_frame)
+    if (!frame.facts.has_last_frame)
         return off("there is no last frame of this size and mode: it is the first, or a cut");
     return {.on = true, .reason = "antialiasing.mode takes half of its samples from the last frame"};
 }
 
-void reproject(CharacterState& state, const FrameGraph& graph, ResourceId from, ResourceId to) {
-    const LastFrame& last = state.own<LastFrame>();
+void reproject(FrameState& frame, const FrameGraph& graph, ResourceId from, ResourceId to) {
+    const LastFrame& last = frame.own<LastFrame>();
     const KeptImage& before = last.images[1 - last.phase];
-    const bool moves = state.on(velocities_effect);
+    const bool moves = frame.on(velocities_effect);
     // Forced velocities of what stands still are zero, and nothing is uncovered.
-    const bool rejects = moves && state.facts.moves && state.settings.choice("reprojection", "rejection") == 0;
-    bind_output(state, graph, to);
-    glUseProgram(state.own<Reprojection>().program.name());
+    const bool rejects = moves && frame.facts.moves && frame.settings.choice("reprojection", "rejection") == 0;
+    bind_output(frame, graph, to);
+    glUseProgram(frame.own<Reprojection>().program.name());
     glBindTextureUnit(0, graph[from].handle);
     glBindTextureUnit(1, before.color.name());
     // Never a name of 0, which would clear the unit's other targets, and they are the host's.
     if (moves) {
-        glBindTextureUnit(2, graph[state.resources.velocities].handle);
-        glBindTextureUnit(3, graph[state.resources.speeds].handle);
+        glBindTextureUnit(2, graph[frame.resources.velocities].handle);
+        glBindTextureUnit(3, graph[frame.resources.speeds].handle);
     }
     if (before.has_speeds) {
         glBindTextureUnit(4, before.speeds.name());
         glBindSampler(4, 0);
     }
     if (rejects) glBindTextureUnit(5, before.depth.name());
-    glUniform1f(0, static_cast<float>(state.settings.number("reprojection", "falloff")));
-    glUniform1i(1, state.view->output == Output::display_srgb ? 1 : 0);
+    glUniform1f(0, static_cast<float>(frame.settings.number("reprojection", "falloff")));
+    glUniform1i(1, frame.view->output == Output::display_srgb ? 1 : 0);
     glUniform1i(2, moves ? 1 : 0);
     glUniform1i(3, before.has_speeds ? 1 : 0);
     glUniform1i(4, rejects ? 1 : 0);
-    draw_screen(state);
+    draw_screen(frame);
 }
 
-void declare(CharacterState& state) {
-    gl::require_program(state.own<Reprojection>().program, {"screen.vert", "antialias/reproject.frag"});
-    const DisplayImages images = next_display(state);
-    const auto pass = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
-        reproject(state, graph, from, to);
+void declare(FrameState& frame) {
+    gl::require_program(frame.own<Reprojection>().program, {"screen.vert", "antialias/reproject.frag"});
+    const DisplayImages images = next_display(frame);
+    const auto pass = [&frame, from = images.from, to = images.to](const FrameGraph& graph) {
+        reproject(frame, graph, from, to);
     };
-    state.graph.pass("reproject", pass).reads(images.from).writes(images.to);
-    if (state.on(velocities_effect)) state.graph.reads(state.resources.velocities).reads(state.resources.speeds);
+    frame.graph.pass("reproject", pass).reads(images.from).writes(images.to);
+    if (frame.on(velocities_effect)) frame.graph.reads(frame.resources.velocities).reads(frame.resources.speeds);
 }
 
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
@@ -113,6 +113,7 @@ const Effect reprojection_effect = {
     .name = "reprojection",
     .what = "the last frame's samples are moved along and blended in",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::history,
     .need = need,
     .declare = declare,

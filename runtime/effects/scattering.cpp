@@ -1,11 +1,13 @@
 /// Subsurface scattering in screen space: the separable kernel of jimenez-2012, chapter 6, and its slower twins.
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 
 #include "rig/light/separable_kernel.h"
 #include "runtime/effects/scattering.h"
 #include "runtime/frame/frame.h"
+#include "runtime/light/scatter_projection.h"
 
 namespace blush {
 namespace {
@@ -32,69 +34,98 @@ constexpr std::array<Setting, 14> settings = {{
     {"material",
      "what light scatters in: skin (d'Eon and Luebke 2007), or, as Jensen et al. 2001 measured it: marble, skin1, "
      "skin2, wholemilk, skimmilk, potato, apple, ketchup, cream, chicken1",
-     material_choices, 0},
+     material_choices, 0, 0, 0, 0, SettingOwner::character},
     {"follow_surface", "on: light does not cross steps of depth; off: it does", follow_choices, 0},
-    {"width", "how far light goes; 1: as the measured profile has it", {}, 0, 0.01, 10, 1.12},
-    {"strength_red", "share of red light that enters; of the fitted kernel", {}, 0, 0, 1, 0.969},
-    {"strength_green", "share of green light that enters", {}, 0, 0, 1, 1},
-    {"strength_blue", "share of blue light that enters", {}, 0, 0, 1, 1},
-    {"falloff_red", "reach of red, as a factor on the red profile", {}, 0, 0.01, 1, 0.58},
-    {"falloff_green", "reach of green, as a factor on the red profile", {}, 0, 0.01, 1, 0.267},
-    {"falloff_blue", "reach of blue, as a factor on the red profile", {}, 0, 0.01, 1, 0.215},
+    {"width", "how far light goes; 1: as the measured profile has it", {}, 0, 0.01, 10, 1.12, SettingOwner::character},
+    {"strength_red",
+     "share of red light that enters; of the fitted kernel",
+     {},
+     0,
+     0,
+     1,
+     0.969,
+     SettingOwner::character},
+    {"strength_green", "share of green light that enters", {}, 0, 0, 1, 1, SettingOwner::character},
+    {"strength_blue", "share of blue light that enters", {}, 0, 0, 1, 1, SettingOwner::character},
+    {"falloff_red", "reach of red, as a factor on the red profile", {}, 0, 0.01, 1, 0.58, SettingOwner::character},
+    {"falloff_green", "reach of green, as a factor on the red profile", {}, 0, 0.01, 1, 0.267, SettingOwner::character},
+    {"falloff_blue", "reach of blue, as a factor on the red profile", {}, 0, 0.01, 1, 0.215, SettingOwner::character},
     {"albedo_before",
      "share of the albedo that light meets before it scatters, as an exponent; 0: sharpest, 1: softest",
      {},
      0,
      0,
      1,
-     0.5},
-    {"millimetres_a_unit", "scale of the face; 0: found from its size", {}, 0, 0, 1e6, 0},
+     0.5,
+     SettingOwner::character},
+    {"millimetres_a_unit", "scale of the face; 0: found from its size", {}, 0, 0, 1e6, 0, SettingOwner::character},
 }};
+
+/// What decides a character's kernel.
+struct Profile {
+    KernelShape shape;
+    std::uint8_t material = 0;
+
+    bool operator==(const Profile&) const = default;
+};
 
 struct State {
     ScatterPasses passes;
-    KernelShape shape;
-    std::uint8_t kernel = 0, material = 0, jittered_material = 0;
-    std::vector<KernelTap> taps;
-    JitteredKernel jittered;
-    ResourceId first{}, second{}, third{}, stencil{}, scene{};
+    ScatterTable table;
+    std::vector<Profile> profiles;             // of the characters whose skin is on the screen, each once
+    std::vector<const CharacterState*> first;  // a character of each profile
+    std::vector<ScatterCharacter> characters;
+    std::uint8_t kernel = 0;
+    std::uint32_t samples = 0;
+    std::vector<Profile> kernel_profiles;  // that `kernels` are of
+    std::vector<std::vector<KernelTap>> kernels;
+    std::vector<Profile> jittered_profiles;
+    std::vector<JitteredKernel> jittered;
+    ResourceId first_image{}, second{}, third{}, stencil{}, scene{};
 };
 
-double number(const CharacterState& state, std::string_view setting) {
-    return state.settings.number("scattering", setting);
+double number(const CharacterState& character, std::string_view setting) {
+    return character.settings.number("scattering", setting);
 }
 
-ScatterMethod method_of(const CharacterState& state) {
-    return static_cast<ScatterMethod>(state.settings.choice("scattering", "method"));
+ScatterMethod method_of(const FrameState& frame) {
+    return static_cast<ScatterMethod>(frame.settings.choice("scattering", "method"));
 }
 
-bool of_skin(const CharacterState& state) { return state.settings.choice("scattering", "material") == 0; }
+bool of_skin(const CharacterState& character) { return character.settings.choice("scattering", "material") == 0; }
 
 /// Eq. 6.1 is a fit to skin: what else light scatters in has its profile's integral.
-bool is_fitted(const CharacterState& state) {
-    return of_skin(state) && state.settings.choice("scattering", "kernel") == 1;
+bool is_fitted(const FrameState& frame, const CharacterState& character) {
+    return of_skin(character) && frame.settings.choice("scattering", "kernel") == 1;
 }
 
 /// The width that the settings ask for, 1 for the profile's own millimetres.
-double relative_width(const CharacterState& state) { return number(state, "width") / skin_kernel_shape().width; }
-
-/// As far as the farthest tap.
-double scatter_range_mm(const CharacterState& state) {
-    if (is_fitted(state)) return kernel_range_mm(scatter_kernel_shape(state));
-    return 3 * relative_width(state) * std::sqrt(scatter_profile(state).back().variance_mm2);
+double relative_width(const CharacterState& character) {
+    return number(character, "width") / skin_kernel_shape().width;
 }
 
-Need need(const CharacterState& state) {
-    if (state.skin.parts.empty()) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
-    if (method_of(state) == ScatterMethod::off) {
+/// As far as the farthest tap.
+double scatter_range_mm(const FrameState& frame, const CharacterState& character) {
+    if (is_fitted(frame, character)) return kernel_range_mm(scatter_kernel_shape(character));
+    return 3 * relative_width(character) * std::sqrt(scatter_profile(character).back().variance_mm2);
+}
+
+Need need(const FrameState& frame) {
+    const auto none_has = [&frame](auto has) { return std::ranges::none_of(frame.characters, has); };
+    if (none_has([](const CharacterState* character) { return !character->facts_of_face.skin.parts.empty(); })) {
+        return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
+    }
+    if (method_of(frame) == ScatterMethod::off) {
         return {.on = false, .reason = "scattering.method is off", .can_be_forced = false};
     }
-    if (!state.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
-    if (state.lights.empty() && state.lighting->environment == nullptr &&
-        state.lighting->sky_radiance_linear == glm::vec3(0) && state.lighting->ground_radiance_linear == glm::vec3(0)) {
+    if (!frame.facts.skin_on_screen) return {.on = false, .reason = "no skin is on the screen"};
+    if (frame.lights.empty() && frame.lighting->environment == nullptr &&
+        frame.lighting->sky_radiance_linear == glm::vec3(0) && frame.lighting->ground_radiance_linear == glm::vec3(0)) {
         return {.on = false, .reason = "no light falls on the skin"};
     }
-    if (scatter_range_mm(state) * state.skin.pixels_a_mm < 0.5) {
+    if (none_has([&frame](const CharacterState* character) {
+            return scatter_range_mm(frame, *character) * character->skin.pixels_a_mm >= 0.5;
+        })) {
         // Every tap lies within the pixel. The bound: 0.1 of radiance, where a hard edge of light passes through it.
         return {.on = false,
                 .reason = "the kernel ends within half a pixel of its centre",
@@ -105,16 +136,66 @@ Need need(const CharacterState& state) {
     return {.on = true, .reason = "light scatters in skin that is on the screen, farther than a pixel"};
 }
 
-ScatterInput input_of(CharacterState& state, const FrameGraph& graph) {
+/// The characters whose skin is on the screen, and their profiles, each once.
+void list_characters(FrameState& frame, State& own) {
+    own.profiles.clear();
+    own.first.clear();
+    own.characters.clear();
+    const double unit = frame.clip_from_view[2][3] != 0 ? 0 : 1;  // orthographic: a millimetre is one size everywhere
+    double reference_mm_a_unit = 0;
+    for (const CharacterState* character : frame.characters) {
+        if (!character->skin.on_screen) continue;
+        const Profile profile{scatter_kernel_shape(*character), character->settings.choice("scattering", "material")};
+        const auto found = std::ranges::find(own.profiles, profile);
+        const auto index = static_cast<std::uint32_t>(found - own.profiles.begin());
+        if (found == own.profiles.end()) {
+            own.profiles.push_back(profile);
+            own.first.push_back(character);
+        }
+        if (reference_mm_a_unit == 0) reference_mm_a_unit = character->millimetres_a_unit;
+        const double scale = unit == 0 ? 1 : reference_mm_a_unit / character->millimetres_a_unit;
+        own.characters.push_back({character->index + 1, index, scatter_follow_mm(frame, *character), scale});
+    }
+}
+
+const std::vector<std::vector<KernelTap>>& separable_kernels(FrameState& frame, State& own) {
+    const std::uint32_t samples = 9U + 8U * frame.settings.choice("scattering", "samples");
+    const std::uint8_t kernel = frame.settings.choice("scattering", "kernel");
+    if (own.samples == samples && own.kernel == kernel && own.kernel_profiles == own.profiles) return own.kernels;
+    own.samples = samples;
+    own.kernel = kernel;
+    own.kernel_profiles = own.profiles;
+    own.kernels.clear();
+    for (std::size_t p = 0; p < own.profiles.size(); ++p) {
+        const CharacterState& character = *own.first[p];
+        own.kernels.push_back(is_fitted(frame, character) ? separable_kernel(own.profiles[p].shape, samples)
+                                                          : preintegrated_kernel(scatter_profile(character),
+                                                                                 relative_width(character), samples));
+    }
+    return own.kernels;
+}
+
+const std::vector<JitteredKernel>& jittered_kernels(State& own) {
+    if (own.jittered_profiles == own.profiles) return own.jittered;
+    own.jittered_profiles = own.profiles;
+    own.jittered.clear();
+    for (const CharacterState* character : own.first) {
+        own.jittered.push_back(jittered_kernel(scatter_profile(*character)));
+    }
+    return own.jittered;
+}
+
+ScatterInput input_of(FrameState& frame, const State& own, const FrameGraph& graph) {
     ScatterInput input;
-    const View& view = *state.view;
-    input.light = graph[state.resources.skin_light].handle;
-    input.albedo = graph[state.resources.skin_albedo].handle;
-    input.depth = graph[state.resources.skin_depth].handle;
-    input.width = view.width;
-    input.height = view.height;
-    input.projection = scatter_projection(view, state.millimetres_a_unit);
-    input.follow_mm = scatter_follow_mm(state);
+    input.light = graph[frame.resources.skin_light].handle;
+    input.albedo = graph[frame.resources.skin_albedo].handle;
+    input.depth = graph[frame.resources.skin_depth].handle;
+    input.width = frame.view->width;
+    input.height = frame.view->height;
+    if (own.characters.empty()) return input;  // forced on
+    const CharacterState& first = *own.first[0];
+    input.projection = scatter_projection(frame, first.millimetres_a_unit);
+    input.follow_mm = scatter_follow_mm(frame, first);
     return input;
 }
 
@@ -123,111 +204,105 @@ void copy(const ScatterInput& input, GLuint from, GLuint to) {
                        static_cast<GLsizei>(input.width), static_cast<GLsizei>(input.height), 1);
 }
 
-void scatter(CharacterState& state, const FrameGraph& graph) {
-    auto& own = state.own<State>();
-    const ScatterInput input = input_of(state, graph);
-    const auto& wanted = state.own<ScatterCapture>();
+void scatter(FrameState& frame, const FrameGraph& graph) {
+    auto& own = frame.own<State>();
+    list_characters(frame, own);
+    ScatterInput input = input_of(frame, own, graph);
+    const auto& wanted = frame.own<ScatterCapture>();
     if (wanted.light != 0) {
         copy(input, input.light, wanted.light);
         copy(input, input.albedo, wanted.albedo);
         copy(input, input.depth, wanted.depth);
     }
+    if (own.characters.empty()) return;
+    const bool many = own.characters.size() > 1;
     const GLuint scene = graph[own.scene].handle;
     const auto handle = [&graph](ResourceId id) { return graph[id].handle; };
-    switch (method_of(state)) {
-        case ScatterMethod::separable: {
-            const KernelShape shape = scatter_kernel_shape(state);
-            const std::uint32_t samples = 9U + 8U * state.settings.choice("scattering", "samples");
-            const std::uint8_t kernel = state.settings.choice("scattering", "kernel");
-            const std::uint8_t material = state.settings.choice("scattering", "material");
-            if (!(own.shape == shape) || own.kernel != kernel || own.material != material ||
-                own.taps.size() != samples) {
-                own.shape = shape;
-                own.kernel = kernel;
-                own.material = material;
-                own.taps = is_fitted(state)
-                               ? separable_kernel(shape, samples)
-                               : preintegrated_kernel(scatter_profile(state), relative_width(state), samples);
-            }
-            own.passes.separable(input, own.taps, {.first = handle(own.first), .stencil = handle(own.stencil)}, scene);
-            break;
+    const ScatterMethod method = method_of(frame);
+    if (method == ScatterMethod::separable) {
+        const std::vector<std::vector<KernelTap>>& kernels = separable_kernels(frame, own);
+        if (many) {
+            own.table.write(own.characters, kernels);
+            input.table = &own.table.buffer();
         }
-        case ScatterMethod::gaussians4:
-        case ScatterMethod::gaussians6: {
-            const bool four = method_of(state) == ScatterMethod::gaussians4 && of_skin(state);
-            const ScatterScratch scratch{handle(own.first), handle(own.second), handle(own.third), 0};
-            own.passes.gaussians(input, four ? skin_four_gaussians() : scatter_profile(state), scratch, scene);
-            break;
+        own.passes.separable(input, kernels[0], {.first = handle(own.first_image), .stencil = handle(own.stencil)},
+                             scene);
+        return;
+    }
+    // The slower twins take one profile after the other.
+    if (many) {
+        own.table.write(own.characters, {});
+        input.table = &own.table.buffer();
+    }
+    for (std::size_t p = 0; p < own.profiles.size(); ++p) {
+        input.only_profile = many ? static_cast<std::int32_t>(p) : -1;
+        const CharacterState& character = *own.first[p];
+        if (method == ScatterMethod::jittered) {
+            own.passes.jittered(input, jittered_kernels(own)[p], scene);
+            continue;
         }
-        case ScatterMethod::jittered:
-            if (own.jittered.wide.radius_mm == 0 ||
-                own.jittered_material != state.settings.choice("scattering", "material")) {
-                own.jittered_material = state.settings.choice("scattering", "material");
-                own.jittered = jittered_kernel(scatter_profile(state));
-            }
-            own.passes.jittered(input, own.jittered, scene);
-            break;
-        case ScatterMethod::off:
-            break;
+        const bool four = method == ScatterMethod::gaussians4 && of_skin(character);
+        const ScatterScratch scratch{handle(own.first_image), handle(own.second), handle(own.third), 0};
+        own.passes.gaussians(input, four ? skin_four_gaussians() : scatter_profile(character), scratch, scene);
     }
 }
 
-void declare(CharacterState& state) {
-    auto& own = state.own<State>();
-    const TextureShape half{PixelFormat::rgba16f, state.view->width, state.view->height, 1};
+void declare(FrameState& frame) {
+    auto& own = frame.own<State>();
+    const TextureShape half{PixelFormat::rgba16f, frame.view->width, frame.view->height, 1};
     TextureShape stencil = half;
     stencil.format = PixelFormat::stencil8;
-    const ScatterMethod method = method_of(state);
-    own.scene = state.resources.scene_color;
-    state.graph.pass("scatter", [&state](const FrameGraph& graph) { scatter(state, graph); })
-        .reads(state.resources.skin_light)
-        .reads(state.resources.skin_albedo)
-        .reads(state.resources.skin_depth);
+    const ScatterMethod method = method_of(frame);
+    own.scene = frame.resources.scene_color;
+    frame.graph.pass("scatter", [&frame](const FrameGraph& graph) { scatter(frame, graph); })
+        .reads(frame.resources.skin_light)
+        .reads(frame.resources.skin_albedo)
+        .reads(frame.resources.skin_depth);
     if (method != ScatterMethod::jittered) {
-        own.first = state.graph.texture("scattered light", half);
-        state.graph.writes(own.first);
+        own.first_image = frame.graph.texture("scattered light", half);
+        frame.graph.writes(own.first_image);
     }
     if (method == ScatterMethod::separable) {
-        own.stencil = state.graph.texture("skin stencil", stencil);
-        state.graph.writes(own.stencil);
+        own.stencil = frame.graph.texture("skin stencil", stencil);
+        frame.graph.writes(own.stencil);
     }
     if (method == ScatterMethod::gaussians4 || method == ScatterMethod::gaussians6) {
-        own.second = state.graph.texture("scattered light, second", half);
-        own.third = state.graph.texture("scattered light, sum", half);
-        state.graph.writes(own.second).writes(own.third);
+        own.second = frame.graph.texture("scattered light, second", half);
+        own.third = frame.graph.texture("scattered light, sum", half);
+        frame.graph.writes(own.second).writes(own.third);
     }
-    state.graph.modifies(state.resources.scene_color);
+    frame.graph.modifies(frame.resources.scene_color);
 }
 
 constexpr std::array<HardCase, 6> hard_cases = {{
     {"a face a kilometre away", "left out: smaller than the kernel", [](Face&) {}, 0,
-     [](View& view) { view.camera.view_from_world[3].z -= 1e3F; }},
+     [](ViewFrame& view) { view.camera.view_from_world[3].z -= 1e3; }},
     {"a camera inside the skin", "taps end somewhere, and all stays finite", [](Face&) {}, 0,
-     [](View& view) { view.camera.view_from_world = glm::mat4(1); }},
+     [](ViewFrame& view) { view.camera.view_from_world = glm::dmat4(1); }},
     {"a field of view of one degree", "a kernel wider than the frame ends somewhere", [](Face&) {}, 0,
-     [](View& view) {
+     [](ViewFrame& view) {
          view.camera.clip_from_view[0][0] = 114.6F;
          view.camera.clip_from_view[1][1] = 114.6F;
      }},
     {"a field of view of 170 degrees", "a small face, drawn or left out", [](Face&) {}, 0,
-     [](View& view) {
+     [](ViewFrame& view) {
          view.camera.clip_from_view[0][0] = 0.0875F;
          view.camera.clip_from_view[1][1] = 0.0875F;
      }},
     {"an orthographic camera", "one size everywhere", [](Face&) {}, 0,
-     [](View& view) {
+     [](ViewFrame& view) {
          glm::mat4 clip(1);
          clip[2][2] = -0.01F;
          view.camera.clip_from_view = clip;
      }},
     {"a frame of one pixel", "nothing to gather from", [](Face&) {}, 0,
-     [](View& view) { view.width = view.height = 1; }},
+     [](ViewFrame& view) { view.width = view.height = 1; }},
 }};
 
 }  // namespace
 
-std::span<const GaussianTerm> scatter_profile(const CharacterState& state) {
-    const std::uint8_t material = state.settings.choice(scattering_effect.name, "material");
+std::span<const GaussianTerm> scatter_profile(const CharacterState& character) {
+    const std::uint8_t material = character.settings.choice(scattering_effect.name, "material");
     if (material == 0) return skin_six_gaussians();
     static std::array<std::vector<GaussianTerm>, material_choices.size()> fitted = [] {
         std::array<std::vector<GaussianTerm>, material_choices.size()> made;
@@ -241,36 +316,25 @@ std::span<const GaussianTerm> scatter_profile(const CharacterState& state) {
     return fitted[material];
 }
 
-KernelShape scatter_kernel_shape(const CharacterState& state) {
-    return {number(state, "width"),
-            {number(state, "strength_red"), number(state, "strength_green"), number(state, "strength_blue")},
-            {number(state, "falloff_red"), number(state, "falloff_green"), number(state, "falloff_blue")}};
+KernelShape scatter_kernel_shape(const CharacterState& character) {
+    return {
+        number(character, "width"),
+        {number(character, "strength_red"), number(character, "strength_green"), number(character, "strength_blue")},
+        {number(character, "falloff_red"), number(character, "falloff_green"), number(character, "falloff_blue")}};
 }
 
-double scatter_follow_mm(const CharacterState& state) {
+double scatter_follow_mm(const FrameState& frame, const CharacterState& character) {
     // Listing 6 fades a tap out at 300 * 1 / tan(fov / 2) * width of depth: for 20 degrees and a width of 0.014 at 42
     // thousandths of a head, 10 mm, three times the kernel's range.
-    const bool follows = state.settings.choice("scattering", "follow_surface") == 0;
-    return follows ? 3 * kernel_range_mm(scatter_kernel_shape(state)) : 0;
-}
-
-ScatterProjection scatter_projection(const View& view, double millimetres_a_unit) {
-    const glm::mat4& clip = view.camera.clip_from_view;
-    ScatterProjection projection;
-    projection.perspective = clip[2][3] != 0 ? 1 : 0;
-    const double unit = projection.perspective != 0 ? 1 : 1 / millimetres_a_unit;
-    const auto pixels = [unit](float scale, std::uint32_t side) {
-        const double value = std::abs(static_cast<double>(scale)) * 0.5 * side * unit;
-        return std::isfinite(value) ? value : 0;
-    };
-    projection.scale = {pixels(clip[0][0], view.width), pixels(clip[1][1], view.height)};
-    return projection;
+    const bool follows = frame.settings.choice("scattering", "follow_surface") == 0;
+    return follows ? 3 * kernel_range_mm(scatter_kernel_shape(character)) : 0;
 }
 
 const Effect scattering_effect = {
     .name = "scattering",
     .what = "light spreads in skin",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::scene,
     .need = need,
     .declare = declare,

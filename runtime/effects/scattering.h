@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "rig/light/separable_kernel.h"
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/light/scatter_passes.h"
 
 namespace blush {
@@ -17,14 +17,11 @@ struct ScatterCapture {
 };
 
 /// The profile of the material that the settings name.
-std::span<const GaussianTerm> scatter_profile(const CharacterState& state);
+std::span<const GaussianTerm> scatter_profile(const CharacterState& character);
 /// The kernel that the settings ask for.
-KernelShape scatter_kernel_shape(const CharacterState& state);
+KernelShape scatter_kernel_shape(const CharacterState& character);
 /// Step of depth that light does not cross; 0: it crosses all.
-double scatter_follow_mm(const CharacterState& state);
-/// Size of a millimetre on a view's screen.
-ScatterProjection scatter_projection(const View& view, double millimetres_a_unit);
-
+double scatter_follow_mm(const FrameState& frame, const CharacterState& character);
 std::vector<Study> scattering_studies(const Device& device, const Face& face, double millimetres_a_unit, bool quick);
 
 }  // namespace blush

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "runtime/draw/draw_casters.h"
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
 #include "runtime/frame/frame.h"
@@ -22,102 +23,77 @@ constexpr std::array<Setting, 3> settings = {{
      edge_choices, 0},
 }};
 
-Need need(const CharacterState& state) {
-    if (state.settings.choice("shadows", "method") == 1) {
+Need need(const FrameState& frame) {
+    if (frame.scene->settings.choice("shadows", "method") == 1) {
         return {.on = false, .reason = "shadows.method is off", .can_be_forced = false};
     }
-    if (state.lights.empty()) return {.on = false, .reason = "no light shines", .can_be_forced = false};
-    if (shadow_light_count(state) == 0) {
+    if (frame.lights.empty()) return {.on = false, .reason = "no light shines", .can_be_forced = false};
+    if (frame.scene->own<ShadowMaps>().maps.empty()) {
         return {.on = false, .reason = "no light that shines casts shadows", .can_be_forced = false};
     }
-    if (shadow_maps_current(state)) {
+    if (shadow_maps_current(frame)) {
         return {.on = false, .reason = "neither lights nor surface moved since the maps that stand were drawn"};
     }
     return {.on = true, .reason = "a light casts shadows, and lights or surface moved"};
 }
 
-void ensure_maps(CharacterState& state, ShadowMaps& maps) {
-    const std::uint32_t side = shadow_map_side(state), count = shadow_light_count(state);
-    if (!maps.program) {
-        Result<gl::Program> program = gl::make_program({"light/shadow.vert"});
-        assert(program && "shadow.vert does not compile");
-        maps.program = *std::move(program);
+/// Makes the texture large enough for this frame's tiles.
+void ensure_maps(FrameState& frame, ShadowMaps& maps) {
+    gl::require_program(maps.program, {"light/shadow.vert"});
+    require_hair_cores(frame, SeenFrom::light);
+    if (!maps.framebuffer) {
         maps.framebuffer = gl::make_framebuffer();
         maps.nearest = gl::make_sampler();
         glSamplerParameteri(maps.nearest.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         glSamplerParameteri(maps.nearest.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
-    if (maps.side_texels == side && maps.count == count) return;
+    std::uint32_t width = 0, height = 0;
+    for (const ShadowMaps::Map& map : maps.maps) {
+        width = std::max(width, map.tile.x + map.tile.side);
+        height = std::max(height, map.tile.y + map.tile.side);
+    }
+    if (maps.width == width && maps.height == height) return;
     maps.depth = gl::make_texture(GL_TEXTURE_2D);
-    glTextureStorage2D(maps.depth.name(), 1, GL_DEPTH_COMPONENT32F, static_cast<GLsizei>(side * count),
-                       static_cast<GLsizei>(side));
+    glTextureStorage2D(maps.depth.name(), 1, GL_DEPTH_COMPONENT32F, static_cast<GLsizei>(width),
+                       static_cast<GLsizei>(height));
     glNamedFramebufferTexture(maps.framebuffer.name(), GL_DEPTH_ATTACHMENT, maps.depth.name(), 0);
-    maps.side_texels = side;
-    maps.count = count;
+    maps.width = width;
+    maps.height = height;
 }
 
-bool is_double_sided(const Face& face, const Primitive& primitive) {
-    return primitive.material >= 0 && face.materials[static_cast<std::size_t>(primitive.material)].double_sided;
-}
-
-/// What is solid casts shadows; of cards only hair's opaque core does, or they would cast their whole outline.
-bool is_solid(const Face& face, const Primitive& primitive) {
-    return primitive.material < 0 ||
-           face.materials[static_cast<std::size_t>(primitive.material)].alpha_mode == AlphaMode::opaque;
-}
-
-void draw_maps(CharacterState& state) {
-    auto& maps = state.own<ShadowMaps>();
-    ensure_maps(state, maps);
-    maps.drawn_views.clear();
+void draw_maps(FrameState& frame) {
+    auto& maps = frame.scene->own<ShadowMaps>();
+    forget_program(frame);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, maps.framebuffer.name());
     const float far_depth = 1;
     glClearNamedFramebufferfv(maps.framebuffer.name(), GL_DEPTH, 0, &far_depth);
-    write_draw_blocks(state);
-    state.model.bind_surface(*state.surface);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP);  // what stands before or behind the map's range still casts
-    const auto side = static_cast<GLsizei>(maps.side_texels);
-    for (const shared::Light& light : state.shader_lights) {
-        if (light.shadow.x < 0) continue;
-        glViewport(static_cast<GLint>(light.shadow.x) * side, 0, side, side);
-        each_drawn_primitive(state, [&](const Primitive& primitive, std::size_t draw_index, bool mirrored) {
-            const bool hair = is_hair_card(state, primitive);
-            if (!hair && !is_solid(state.face, primitive)) return;
-            if (hair) {
-                bind_hair_core(state, primitive, SeenFrom::light);
-            } else {
-                glUseProgram(maps.program.name());
+    for (const Casters casters : {Casters::solid, Casters::hair}) {
+        for (const ShadowMaps::Map& map : maps.maps) {
+            const auto side = static_cast<GLsizei>(map.tile.side);
+            glViewport(static_cast<GLint>(map.tile.x), static_cast<GLint>(map.tile.y), side, side);
+            for (CharacterState* caster : frame.characters) {
+                if (!casts_into(frame.lights[map.light], *caster, *frame.characters[map.character])) continue;
+                draw_casters(frame, *caster, casters, maps.program, map.place.shadow_from_world);
             }
-            glUniformMatrix4fv(0, 1, GL_FALSE, &light.shadow_from_world[0][0]);
-            // Only what light can meet from outside: through the open back of a shell it would come in at once, and
-            // shine through the front as if that were thin.
-            if (is_double_sided(state.face, primitive)) {
-                glDisable(GL_CULL_FACE);
-            } else {
-                glEnable(GL_CULL_FACE);
-            }
-            glFrontFace(mirrored ? GL_CW : GL_CCW);
-            state.model.bind_draw(draw_index);
-            draw_elements(state, primitive);
-        });
-        maps.drawn_views.push_back(light.shadow_from_world);
+        }
     }
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
-    maps.drawn_active = state.active;
-    maps.drawn_settings = state.settings;
-    maps.drawn_nodes = state.world_from_node;
-    maps.drawn_joints = state.skinned_from_mesh;
-    maps.valid = true;
+    keep_shadow_maps(frame);
 }
 
-void declare(CharacterState& state) {
-    if (state.picture > 0) return;  // the frame's first picture drew them: only the camera differs
-    state.graph.pass("shadow maps", [&state](const FrameGraph&) { draw_maps(state); })
-        .reads(state.resources.positions)
-        .writes(state.resources.shadow_maps);
+void declare(FrameState& frame) {
+    if (frame.picture > 0) return;  // the frame's first picture drew them: only the camera differs
+    auto& maps = frame.scene->own<ShadowMaps>();
+    ensure_maps(frame, maps);
+    frame.resources.shadow_maps =
+        frame.graph.import_texture("shadow maps", maps.depth.name(), {PixelFormat::depth32f, maps.width, maps.height});
+    frame.graph.pass("shadow maps", [&frame](const FrameGraph&) { draw_maps(frame); });
+    for (const CharacterState* character : frame.characters) frame.graph.reads(character->resources.positions);
+    frame.graph.writes(frame.resources.shadow_maps);
 }
 
 std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
@@ -170,11 +146,11 @@ const Lighting& no_light() {
 }
 
 constexpr std::array<HardCase, 3> hard_cases = {{
-    {"no light at all", "a black face", [](Face&) {}, 0, [](View& view) { view.lighting = &no_light(); }},
+    {"no light at all", "a black face", [](Face&) {}, 0, [](ViewFrame& view) { view.lighting = &no_light(); }},
     {"a light inside the face", "lit, without a map", [](Face&) {}, 0,
-     [](View& view) { view.lighting = &light_inside(); }},
+     [](ViewFrame& view) { view.lighting = &light_inside(); }},
     {"dark, NaN, still and far lights", "those that cannot shine are left out", [](Face&) {}, 1,
-     [](View& view) { view.lighting = &odd_lights(); }},
+     [](ViewFrame& view) { view.lighting = &odd_lights(); }},
 }};
 
 }  // namespace
@@ -183,6 +159,7 @@ const Effect shadows_effect = {
     .name = "shadows",
     .what = "lights cast shadows and shine through thin parts",
     .settings = settings,
+    .owner = SettingOwner::scene,
     .stage = Stage::light,
     .need = need,
     .declare = declare,

@@ -28,44 +28,44 @@ struct Supersampling {
     gl::Program program;
 };
 
-Need need(const CharacterState& state) {
-    if (state.sampling.pictures == 1) {
+Need need(const FrameState& frame) {
+    if (frame.sampling.pictures == 1) {
         return {.on = false,
-                .reason = state.facts.on_screen ? "one picture a frame is asked for" : nothing_to_draw(state.facts),
+                .reason = frame.facts.on_screen ? "one picture a frame is asked for" : nothing_to_draw(frame.facts),
                 .can_be_forced = false};
     }
     return {.on = true, .reason = "several pictures a frame are asked for"};
 }
 
-void average(CharacterState& state, GLuint mean_so_far, GLuint picture, glm::bvec2 encoded) {
-    glUseProgram(state.own<Supersampling>().program.name());
+void average(FrameState& frame, GLuint mean_so_far, GLuint picture, glm::bvec2 encoded) {
+    glUseProgram(frame.own<Supersampling>().program.name());
     glBindTextureUnit(0, mean_so_far);
     glBindTextureUnit(1, picture);
-    glUniform1f(0, 1.0F / static_cast<float>(state.picture + 1));
+    glUniform1f(0, 1.0F / static_cast<float>(frame.picture + 1));
     glUniform2i(1, encoded.x ? 1 : 0, encoded.y ? 1 : 0);
-    draw_screen(state);
+    draw_screen(frame);
 }
 
-void declare(CharacterState& state) {
-    gl::require_program(state.own<Supersampling>().program, {"screen.vert", "antialias/average.frag"});
-    const DisplayImages images = next_display(state);
-    const auto mean = [&state, from = images.from, to = images.to](const FrameGraph& graph) {
-        const bool encoded = state.view->output == Output::display_srgb;
-        const bool last = state.picture + 1 == state.sampling.pictures;
-        bind_output(state, graph, to);
-        average(state, pictures_so_far(state), graph[from].handle, {encoded, encoded && last});
+void declare(FrameState& frame) {
+    gl::require_program(frame.own<Supersampling>().program, {"screen.vert", "antialias/average.frag"});
+    const DisplayImages images = next_display(frame);
+    const auto mean = [&frame, from = images.from, to = images.to](const FrameGraph& graph) {
+        const bool encoded = frame.view->output == Output::display_srgb;
+        const bool last = frame.picture + 1 == frame.sampling.pictures;
+        bind_output(frame, graph, to);
+        average(frame, pictures_so_far(frame), graph[from].handle, {encoded, encoded && last});
     };
-    state.graph.pass("average pictures", mean).reads(images.from).writes(images.to);
-    if (!state.on(velocities_effect)) return;
+    frame.graph.pass("average pictures", mean).reads(images.from).writes(images.to);
+    if (!frame.on(velocities_effect)) return;
 
     // Speeds are filtered like colours (jimenez-2012, 10.4.4), so they are averaged like them.
-    const ResourceId from = state.resources.speeds, to = import_kept_speeds(state);
-    const auto mean_speed = [&state, from, to](const FrameGraph& graph) {
-        bind_output(state, graph, to);
-        average(state, state.own<Pictures>().first_speeds.name(), graph[from].handle, glm::bvec2(false));
+    const ResourceId from = frame.resources.speeds, to = import_kept_speeds(frame);
+    const auto mean_speed = [&frame, from, to](const FrameGraph& graph) {
+        bind_output(frame, graph, to);
+        average(frame, frame.own<Pictures>().first_speeds.name(), graph[from].handle, glm::bvec2(false));
     };
-    state.graph.pass("average speeds", mean_speed).reads(from).writes(to);
-    state.resources.speeds = to;
+    frame.graph.pass("average speeds", mean_speed).reads(from).writes(to);
+    frame.resources.speeds = to;
 }
 
 std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
@@ -94,6 +94,7 @@ const Effect supersampling_effect = {
     .name = "supersampling",
     .what = "several pictures a frame are averaged",
     .settings = settings,
+    .owner = SettingOwner::view,
     .stage = Stage::average,
     .need = need,
     .declare = declare,

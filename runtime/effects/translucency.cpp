@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/light/shadow_maps.h"
 #include "runtime/measure/frame_study.h"
 
@@ -20,15 +20,16 @@ constexpr std::array<Setting, 3> settings = {{
     {"drawn_in_mm", "how far a point is drawn in along its normal before its depth is looked up (5.5)", {}, 0, 0, 5, 1},
 }};
 
-Need need(const CharacterState& state) {
-    if (state.skin.parts.empty()) return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
-    if (state.settings.number("translucency", "strength") == 0) {
+Need need(const FrameState& frame, const CharacterState& character) {
+    if (character.facts_of_face.skin.parts.empty())
+        return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
+    if (character.settings.number("translucency", "strength") == 0) {
         return {.on = false, .reason = "translucency.strength is 0", .can_be_forced = false};
     }
-    if (state.settings.choice("shadows", "method") == 1 || shadow_light_count(state) == 0) {
+    if (frame.scene->settings.choice("shadows", "method") == 1 || character.shadow_lights == 0) {
         return {.on = false, .reason = "no light has a shadow map to tell a thickness from", .can_be_forced = false};
     }
-    if (!state.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
+    if (!character.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
     return {.on = true, .reason = "a light with a shadow map may stand behind thin skin"};
 }
 
@@ -51,8 +52,7 @@ const Effect translucency_effect = {
     .what = "light passes thin parts such as ears",
     .settings = settings,
     .stage = Stage::light,
-    .need = need,
-    .declare = [](CharacterState&) {},
+    .character_need = need,
     .studies = studies,
     .hard_cases = hard_cases,
 };

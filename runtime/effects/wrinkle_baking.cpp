@@ -38,11 +38,6 @@ constexpr std::array<Setting, 6> settings = {{
      parts},
 }};
 
-Need need(const CharacterState& state) {
-    return baker_need(state, state.appearance.wrinkles.has_value(), "the face's wrinkles are baked already",
-                      "frames bake nothing, and the face has no maps to draw (blush bake wrinkles)");
-}
-
 Variant variant_of(std::string label, std::string work, bool is_default, const WrinkleErrorCase& of) {
     const auto run = [of] { (void)wrinkle_normal_error(of); };
     const auto error = [of] {
@@ -107,8 +102,6 @@ const Effect wrinkle_baking_effect = {
     .what = "finds ahead of time where and how the skin folds",
     .settings = settings,
     .stage = Stage::surface,
-    .need = need,
-    .declare = declare_nothing,
     .studies = studies,
     .hard_cases = hard_cases,
 };

@@ -34,21 +34,21 @@ constexpr std::array<Setting, 4> settings = {{
      .default_number = 0.06},
 }};
 
-bool any_wrinkle(const CharacterState& state) {
-    return std::ranges::any_of(state.pose.wrinkles, [](float weight) { return weight != 0; });
+bool any_wrinkle(const CharacterState& character) {
+    return std::ranges::any_of(character.pose.wrinkles, [](float weight) { return weight != 0; });
 }
 
-Need need(const CharacterState& state) {
-    if (!state.appearance.wrinkles) {
+Need need(const FrameState& /*frame*/, const CharacterState& character) {
+    if (!character.asset.appearance().wrinkles) {
         return {.on = false,
                 .reason = "the face has no wrinkle maps (blush bake wrinkles makes them)",
                 .can_be_forced = false};
     }
-    if (is_hidden(state, "wrinkles")) {
+    if (is_hidden(character.settings, "wrinkles")) {
         return {.on = false, .reason = "wrinkles.shown says no", .can_be_forced = false};
     }
-    if (!any_wrinkle(state)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
-    if (state.skin.pixels_a_mm < state.settings.number("wrinkles", "least_pixels_a_mm")) {
+    if (!any_wrinkle(character)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
+    if (character.skin.pixels_a_mm < character.settings.number("wrinkles", "least_pixels_a_mm")) {
         return {.on = false,
                 .reason = "the face is so small on the screen that a fold is narrower than a pixel",
                 .omission = Omission::bounded,
@@ -58,7 +58,11 @@ Need need(const CharacterState& state) {
     return {.on = true, .reason = "some zone of the face is pressed together or smoothed"};
 }
 
-void declare(CharacterState& state) { wrinkle_textures(state); }
+void declare(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        if (character->on(wrinkles_effect)) wrinkle_textures(*character);
+    }
+}
 
 /// The face's base normal map as derivatives, against the vectors of its image.
 std::optional<Study> base_map_study(const Face& face, const std::shared_ptr<AppearanceProbe>& probe) {
@@ -95,9 +99,11 @@ std::optional<Study> base_map_study(const Face& face, const std::shared_ptr<Appe
 
 std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
     std::vector<Study> result = wrinkle_frame_study(device, face, millimetres_a_unit);
-    std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
-    if (!probe || !probe->state().appearance.wrinkles) return result;
-    probe->state().appearance.wrinkles->part = {};  // a texel of the map for a point of the probe
+    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face.path));
+    if (!appearance || !appearance->wrinkles) return result;
+    appearance->wrinkles->part = {};  // a texel of the map for a point of the probe
+    std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face, *std::move(appearance));
+    if (!probe) return result;
 
     Study stored{"stored wrinkle map of the face, every zone at 0.7",
                  "the map in single precision on the CPU",
@@ -163,7 +169,7 @@ const Effect wrinkles_effect = {
     .what = "skin folds where the pose presses it together",
     .settings = settings,
     .stage = Stage::light,
-    .need = need,
+    .character_need = need,
     .declare = declare,
     .studies = studies,
     .hard_cases = hard_cases,

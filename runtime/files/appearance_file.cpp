@@ -315,8 +315,8 @@ Result<HemoglobinChange> load_change(const fs::path& path) {
 
 Result<HemoglobinMaps> load_hemoglobin_maps(const fs::path& folder) {
     HemoglobinMaps maps;
-    for (const std::string& name : hemoglobin_pattern_names) {
-        const fs::path path = folder / (name + ".exr");
+    for (const std::string_view name : hemoglobin_pattern_names) {
+        const fs::path path = folder / (std::string(name) + ".exr");
         std::error_code failed;
         if (!fs::exists(path, failed)) continue;
         const Result<HemoglobinChange> read = load_change(path);
@@ -324,7 +324,7 @@ Result<HemoglobinMaps> load_hemoglobin_maps(const fs::path& folder) {
         const HemoglobinChange& change = *read;
         if (!maps.changes.empty() && !maps.changes[0].scale.same_size(change.scale))
             return Error{path.string() + ": its size is not that of " + maps.names[0] + ".exr"};
-        maps.names.push_back(name);
+        maps.names.emplace_back(name);
         maps.changes.push_back(change);
     }
     return maps;
@@ -336,8 +336,8 @@ Result<HemoglobinPattern> load_hemoglobin_pattern(const fs::path& path) {
 
 Result<std::vector<HemoglobinPattern>> load_hemoglobin_patterns(const fs::path& folder) {
     std::vector<HemoglobinPattern> patterns;
-    for (const std::string& name : hemoglobin_pattern_names) {
-        const fs::path path = folder / (name + ".json");
+    for (const std::string_view name : hemoglobin_pattern_names) {
+        const fs::path path = folder / (std::string(name) + ".json");
         Result<HemoglobinPattern> pattern = load_hemoglobin_pattern(path);
         if (!pattern) return pattern.error();
         if (pattern->name != name) return Error{path.string() + ": name: \"" + pattern->name + "\" is not the file's"};

@@ -67,8 +67,8 @@ LightSource light_from(const json& object, const std::string& place, glm::vec3 c
         if (glm::length(light.direction_world) < 1e-6F) refuse(place + ".from", "it has no direction");
     } else {
         const glm::vec3 offset = triple(object, "at_mm", place, 1e7);
-        light.position_world = centre + offset * static_cast<float>(scale);
-        light.direction_world = centre - light.position_world;
+        light.position_world = glm::dvec3(centre) + glm::dvec3(offset) * scale;
+        light.direction_world = glm::vec3(glm::dvec3(centre) - light.position_world);
         const auto length = static_cast<double>(glm::length(offset));
         light.reference_distance =
             static_cast<float>(number(object, "reference_mm", std::max(length, 1.0), 1, 1e7, place) * scale);

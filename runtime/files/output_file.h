@@ -26,7 +26,7 @@ Status write_image(const std::filesystem::path& path, const Image& image);
 
 /// Writes a surface as .ply (ASCII) or .obj with nine significant digits, which give back every float.
 /// positions and normals: one a vertex. indices: triangles.
-Status write_surface(const std::filesystem::path& path, std::span<const glm::vec3> positions,
-                     std::span<const glm::vec3> normals, std::span<const std::uint32_t> indices);
+Status write_surface(const std::filesystem::path& path, std::span<const Vec3> positions, std::span<const Vec3> normals,
+                     std::span<const std::uint32_t> indices);
 
 }  // namespace blush

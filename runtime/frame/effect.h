@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@
 namespace blush {
 
 struct CharacterState;
+struct FrameState;
 
 /// One of a few named choices, or (without choices) a number in a range.
 struct Setting {
@@ -29,6 +31,7 @@ struct Setting {
     std::span<const std::string_view> choices = {};
     std::uint8_t default_choice = 0;
     double lowest = 0, highest = 0, default_number = 0;  ///< of a number; in the unit that `meaning` names
+    std::optional<SettingOwner> owner = std::nullopt;    ///< where it is not the effect's
 };
 
 /// Where in a frame an effect's passes stand (runtime/frame/frame.cpp).
@@ -84,23 +87,27 @@ struct HardCase {
     /// Weight of every target of that face.
     float weight = 1;
     /// Changes what the frame is drawn for; may be null.
-    void (*look)(View& view) = nullptr;
+    void (*look)(ViewFrame& view) = nullptr;
 };
 
 /// A setting that takes an effect out of every frame.
 inline constexpr std::array<std::string_view, 2> yes_or_no = {"yes", "no"};
 constexpr Setting shown_setting(std::string_view meaning) { return {"shown", meaning, yes_or_no}; }
 /// Whether `shown` of that effect says no.
-bool is_hidden(const CharacterState& state, std::string_view effect);
+bool is_hidden(const EffectSettings& settings, std::string_view effect);
 
 struct Effect {
     std::string_view name;
     std::string_view what;
     std::span<const Setting> settings;
+    SettingOwner owner = SettingOwner::character;  ///< of its settings
     Stage stage = Stage::surface;
     /// Reads facts and settings; where it depends on another effect's need, that one stands earlier in the registry.
-    Need (*need)(const CharacterState&);
-    void (*declare)(CharacterState&);
+    /// One of the two: asked once for the view, or for each character. Neither: it takes no part in a frame.
+    Need (*need)(const FrameState&) = nullptr;
+    Need (*character_need)(const FrameState&, const CharacterState&) = nullptr;
+    /// Adds passes, once for all characters. Null: shading does it.
+    void (*declare)(FrameState&) = nullptr;
     /// `millimetres_a_unit`: scale of the face, for errors in millimetres.
     std::vector<Study> (*studies)(const Device&, const Face&, double millimetres_a_unit, bool quick);
     std::span<const HardCase> hard_cases;

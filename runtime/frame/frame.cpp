@@ -2,281 +2,467 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
-#include "runtime/frame/effect.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/light/scene_lights.h"
 #include "runtime/light/shadow_maps.h"
 
 namespace blush {
 namespace {
 
-void find_facts(CharacterState& state, const View& view) {
-    find_active(state.pose.weights, state.active);
-    state.facts = {};
-    state.facts.active_targets = static_cast<std::uint32_t>(state.active.size());
-    state.facts.has_joints = !state.face.joints.empty();
-    state.facts.has_triangles = std::ranges::any_of(
-        state.face.primitives, [](const Primitive& primitive) { return primitive.index_count >= 3; });
-    state.facts.forced = view.force_effects;
-
-    const NormalMethod method =
-        static_cast<NormalMethod>(state.settings.choice(normals_effect.name, normals_effect.settings[0].name));
-    const auto& needs =
-        method == NormalMethod::authored ? state.target_needs_turned_normals : state.target_moves_normals;
-    state.facts.any_turned_normals = std::ranges::any_of(needs, [](std::uint8_t need) { return need != 0; });
-    state.facts.active_need_turned_normals =
-        std::ranges::any_of(state.active, [&](const ActiveTarget& entry) { return needs[entry.target] != 0; });
-
-    const bool same_settings = state.deformed_settings == state.settings;
-    state.facts.deformation_current = state.deformed_valid && same_settings && state.active == state.deformed_active;
-    state.normal_method = method;
+/// Everything of a character that no view changes: its pose and where it stands.
+void place_character(CharacterState& character) {
+    character.rig.evaluate(character.controls, character.pose);
+    if (character.blood) character.blood->apply(character.pose);
+    Stance& stance = character.stance;
+    find_active(character.pose.weights, stance.active);
+    const AssetState& asset = character.facts_of_face;
+    place_nodes(character.face, character.pose, asset.head_and_eyes, character.face_from_node);
+    for (std::size_t n = 0; n < character.face_from_node.size(); ++n) {
+        stance.world_from_node[n] = character.world_from_face * character.face_from_node[n];
+    }
+    stance.world_from_node.back() = character.world_from_face * glm::translate(glm::dmat4(1), asset.skinned_origin);
+    if (character.host_joints.empty()) {
+        skinned_from_meshes(character.face, character.face_from_node, asset.skinned_origin, stance.skinned_from_mesh);
+    } else {
+        for (std::size_t j = 0; j < stance.skinned_from_mesh.size(); ++j) {
+            stance.skinned_from_mesh[j] = character.host_joints[j];
+            stance.skinned_from_mesh[j][3] -= glm::vec4(glm::vec3(asset.skinned_origin), 0);
+        }
+    }
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(character.world_from_face))));
+    const double set_scale = character.settings.number("scattering", "millimetres_a_unit");
+    const double of_face = set_scale > 0 ? set_scale : asset.scale.millimetres_a_unit;
+    character.millimetres_a_unit = scale > 0 && std::isfinite(scale) ? of_face / scale : of_face;
+    const Bounds bounds = moved_bounds(character);
+    character.centre_world = glm::dvec3(character.world_from_face * glm::dvec4(bounds.centre(), 1));
+    // A little more than the bounds, so that a deformation that leaves them somewhat still casts its shadow.
+    character.radius_world = bounds.empty() ? 0 : 0.55 * scale * static_cast<double>(glm::length(bounds.size()));
 }
 
-/// Lights, skin and shadows; needs where every node stands.
-void place_lights_and_skin(CharacterState& state, const View& view) {
-    if (view.lighting == nullptr) state.portrait = portrait_lighting(view.camera);
-    state.lighting = view.lighting != nullptr ? view.lighting : &state.portrait;
-    usable_lights(*state.lighting, view.time_seconds, state.lights);
-    place_skin(state);
-    place_shadow_maps(state);
-    state.shadows_shown = state.settings.choice(shadows_effect.name, "method") == 0 && shadow_light_count(state) > 0;
+void find_facts(CharacterState& character, bool forced) {
+    const AssetState& asset = character.facts_of_face;
+    const std::vector<ActiveTarget>& active = character.active();
+    CharacterFacts& facts = character.facts;
+    facts = {};
+    facts.active_targets = static_cast<std::uint32_t>(active.size());
+    facts.has_joints = !character.face.joints.empty();
+    facts.forced = forced;
+    character.normal_method =
+        static_cast<NormalMethod>(character.settings.choice(normals_effect.name, normals_effect.settings[0].name));
+    const auto& needs = character.normal_method == NormalMethod::authored ? asset.target_needs_turned_normals
+                                                                          : asset.target_moves_normals;
+    facts.any_turned_normals = std::ranges::any_of(needs, [](std::uint8_t need) { return need != 0; });
+    facts.active_need_turned_normals =
+        std::ranges::any_of(active, [&](const ActiveTarget& entry) { return needs[entry.target] != 0; });
+    facts.deformation_current = character.deformed_valid && character.deformed_settings == character.settings &&
+                                active == character.deformed_active;
+    facts.skinned = character.skinned.valid && character.skinned.settings == character.settings &&
+                    character.skinned.active == active &&
+                    character.skinned.joints == character.stance.skinned_from_mesh;
+    if (facts.active_targets != 0 || forced) character.stream_out.prepare();
+}
+
+/// Clip space of the host's convention to GL's own: a linear map of z and w.
+glm::mat4 gl_clip(const glm::mat4& clip_from_view, const DepthConvention& convention) {
+    if (!convention.zero_to_one && !convention.reversed) return clip_from_view;
+    glm::mat4 clip = clip_from_view;
+    for (glm::length_t column = 0; column < 4; ++column) {
+        float& z = clip[column][2];
+        const float w = clip[column][3];
+        if (convention.zero_to_one) z = 2 * z - w;
+        if (convention.reversed) z = -z;
+    }
+    return clip;
+}
+
+void place_camera(FrameState& frame, const ViewFrame& view) {
+    frame.view = &view;
+    frame.camera = view.camera;
+    frame.camera.clip_from_view = frame.clip_from_view = gl_clip(view.camera.clip_from_view, view.depth_convention);
+    const glm::dvec3 eye(glm::inverse(view.camera.view_from_world)[3]);
+    const bool finite = std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z);
+    frame.eye_world = finite ? eye : glm::dvec3(0);
+}
+
+/// What depends on where this view's camera stands: places, skin, light.
+void place_in_view(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        const glm::dvec3& middle = character->centre_world;
+        const bool finite = std::isfinite(middle.x) && std::isfinite(middle.y) && std::isfinite(middle.z);
+        character->origin_world = finite ? middle : glm::dvec3(0);
+        const glm::dmat4 shading_from_world = glm::translate(glm::dmat4(1), -character->origin_world);
+        character->view_from_shading =
+            glm::mat4(frame.view->camera.view_from_world * glm::translate(glm::dmat4(1), character->origin_world));
+        for (std::size_t n = 0; n < character->shading_from_node.size(); ++n) {
+            character->shading_from_node[n] = glm::mat4(shading_from_world * character->stance.world_from_node[n]);
+        }
+        character->skin = place_skin(frame, *character);
+        CharacterReport& report = *character->report;
+        const LightsThatReach reach =
+            lights_that_reach(frame.lights, character->centre_world, character->radius_world, character->reaching);
+        report.lights = static_cast<std::uint32_t>(character->reaching.size());
+        report.lights_left_out = reach.left_out;
+        report.lights_left_out_radiance = reach.left_out_radiance;
+    }
+}
+
+void find_light(FrameState& frame, const ViewFrame& view) {
+    frame.lighting = view.lighting;
+    if (frame.lighting == nullptr && frame.scene->lighting) frame.lighting = &*frame.scene->lighting;
+    if (frame.lighting == nullptr) {
+        portrait_lighting(view.camera, frame.portrait);
+        frame.lighting = &frame.portrait;
+    }
+    usable_lights(*frame.lighting, view.time_seconds, frame.lights);
+}
+
+void start_report(FrameState& frame) {
+    FrameReport& report = frame.report;
+    report.characters.resize(frame.characters.size());
+    report.passes.clear();
+    report.not_finite.reset();
+    report.failure.reset();
+    report.deltas_added = 0;
+    report.triangles_drawn = report.draws = report.program_switches = 0;
+    for (std::uint32_t c = 0; c < frame.characters.size(); ++c) {
+        CharacterState& character = *frame.characters[c];
+        character.index = c;
+        character.report = &report.characters[c];
+        character.report->active = character.active();
+        character.report->deltas_added = 0;
+        character.report->stream_outs = character.report->draws = character.report->triangles_drawn = 0;
+    }
+}
+
+/// Starts a view of the frame: all that predicates look at.
+void begin_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
+    frame.scene = &scene;
+    frame.characters = scene.characters;
+    start_report(frame);
+    place_camera(frame, view);
+    frame.facts = {};
+    frame.facts.forced = view.force_effects;
+    for (CharacterState* character : frame.characters) find_facts(*character, view.force_effects);
+    find_light(frame, view);
+    place_in_view(frame);
+    for (CharacterState* character : frame.characters) {
+        frame.facts.has_triangles |= character->facts_of_face.has_triangles;
+        frame.facts.skin_on_screen |= character->skin.on_screen;
+        character->report->on_screen =
+            character->facts_of_face.has_triangles && (view.force_effects || may_be_on_screen(frame, *character));
+        frame.facts.on_screen |= character->report->on_screen;
+    }
+    place_shadow_maps(frame);
+}
+
+EffectReport report_of(const Effect& effect, const Need& need, bool forced) {
+    const bool on = need.on || (forced && need.can_be_forced);
+    return {effect.name, on, on && !need.on ? "forced on" : need.reason, need.omission, need.bound, need.bound_unit};
+}
+
+/// Of one effect that is asked for each character: on where any has it, else the weakest reason to leave it out.
+EffectReport find_character_needs(FrameState& frame, const Effect& effect, std::size_t index) {
+    EffectReport all{effect.name, false, "the scene has no character", Omission::exact, 0, {}};
+    bool first = true;
+    for (CharacterState* character : frame.characters) {
+        const EffectReport one = report_of(effect, effect.character_need(frame, *character), frame.facts.forced);
+        character->report->effects.push_back(one);
+        character->effects_on[index] = one.on ? 1 : 0;
+        const bool weaker = !all.on && !one.on && one.omission == Omission::bounded;
+        if (first || (one.on && !all.on) || weaker) all = one;
+        first = false;
+    }
+    return all;
+}
+
+void find_needs(FrameState& frame) {
+    const std::span<const Effect* const> registry = effects();
+    frame.report.effects.clear();
+    frame.effects_on.assign(registry.size(), 0);
+    for (CharacterState* character : frame.characters) {
+        character->report->effects.clear();
+        character->effects_on.assign(registry.size(), 0);
+    }
+    for (std::size_t e = 0; e < registry.size(); ++e) {
+        const Effect& effect = *registry[e];
+        if (effect.need == nullptr && effect.character_need == nullptr) continue;
+        const EffectReport report = effect.need != nullptr ? report_of(effect, effect.need(frame), frame.facts.forced)
+                                                           : find_character_needs(frame, effect, e);
+        frame.report.effects.push_back(report);
+        frame.effects_on[e] = report.on ? 1 : 0;
+    }
+}
+
+std::size_t index_of(const Effect& effect) {
+    const std::span<const Effect* const> registry = effects();
+    return static_cast<std::size_t>(std::ranges::find(registry, &effect) - registry.begin());
 }
 
 /// Effects that run must leave the same picture as effects that were left out; what they leave is remembered here.
-void remember_deformation(CharacterState& state) {
-    if (state.facts.active_targets == 0 && !state.facts.forced) return;  // the rest surface was used as it is
-    state.deformed_active = state.active;
-    state.deformed_settings = state.settings;
-    state.deformed_valid = true;
+void remember_surface(CharacterState& character) {
+    if (character.on(skinning_effect)) {
+        character.skinned.valid = true;
+        character.skinned.settings = character.settings;
+        character.skinned.active = character.active();
+        character.skinned.joints = character.stance.skinned_from_mesh;
+    }
+    // At rest the rest surface was used as it is.
+    if (character.facts.active_targets == 0 && !character.facts.forced) return;
+    character.deformed_active = character.active();
+    character.deformed_settings = character.settings;
+    character.deformed_valid = true;
 }
 
 /// What the surface passes start from, or what they have left for a further picture of the same frame.
-void import_surface(CharacterState& state, const SurfaceBuffers& surface) {
-    const auto count = static_cast<std::uint32_t>(state.face.positions.size());
-    state.surface = &surface;
-    state.resources = {};
-    state.resources.positions = state.graph.import_buffer("surface positions", surface.positions.name(), 3, count);
-    state.resources.normals = state.graph.import_buffer("surface normals", surface.normals.name(), 3, count);
-    state.resources.tangents = state.graph.import_buffer("surface tangents", surface.tangents.name(), 4, count);
-    state.resources.morphed_positions = state.resources.positions;
-    state.resources.morphed_normals = state.resources.normals;
-    state.resources.morphed_tangents = state.resources.tangents;
+void import_surface(FrameState& frame, CharacterState& character) {
+    if (frame.picture == 0) {
+        const bool made = character.facts.skinned && !character.on(skinning_effect);
+        character.surface = made ? &character.stream_out.skinned() : &character.morphed();
+    }
+    const SurfaceBuffers& surface = *character.surface;
+    const auto count = static_cast<std::uint32_t>(character.face.positions.size());
+    auto& resources = character.resources;
+    resources = {};
+    resources.positions = frame.graph.import_buffer("surface positions", surface.positions.name(), 3, count);
+    resources.normals = frame.graph.import_buffer("surface normals", surface.normals.name(), 3, count);
+    resources.tangents = frame.graph.import_buffer("surface tangents", surface.tangents.name(), 4, count);
+    resources.morphed_positions = resources.positions;
+    resources.morphed_normals = resources.normals;
+    resources.morphed_tangents = resources.tangents;
 }
 
-TextureShape picture_shape(const View& view) { return {picture_format(view.output), view.width, view.height, 1}; }
-
-/// The image that has `left` steps after it.
-ResourceId image(CharacterState& state, std::uint32_t left) {
-    if (left == 0) return state.resources.target;
-    const TextureShape shape = picture_shape(*state.view);
-    if (left != state.kept_at) return state.graph.texture("display", shape);
-    return state.graph.import_texture("kept image", kept_image(state, shape).color.name(), shape);
-}
-
-/// Counts the steps that the picture takes from the scene to its target, each of which calls next_display() once.
-void count_images(CharacterState& state, const View& view, bool last_picture) {
-    const auto on = [&](Stage stage) {
-        return static_cast<std::uint32_t>(std::ranges::count_if(
-            effects(), [&](const Effect* effect) { return effect->stage == stage && state.on(*effect); }));
-    };
-    const bool keeps = last_picture && state.sampling.temporal;
-    const std::uint32_t display_steps = last_picture && view.output == Output::display_srgb ? on(Stage::display) : 0;
-    state.kept_at = keeps ? 1 + display_steps : 0;
-    state.images_left =
-        on(Stage::filter) + (state.picture > 0 ? on(Stage::average) : 0) + (keeps ? 1 : 0) + display_steps;
-}
+TextureShape picture_shape(const ViewFrame& view) { return {picture_format(view.output), view.width, view.height, 1}; }
 
 /// An image that shading writes, and the one that it is resolved to: the same one where `shape` has one sample.
-ResourceId shaded_image(CharacterState& state, std::string_view multisampled, std::string_view single,
-                        TextureShape shape) {
-    const ResourceId from = state.graph.texture(multisampled, shape);
+ResourceId shaded_image(FrameState& frame, std::string_view multisampled, std::string_view single, TextureShape shape) {
+    const ResourceId from = frame.graph.texture(multisampled, shape);
     ResourceId to = from;
     if (shape.samples > 1) {
         shape.samples = 1;
-        to = state.graph.texture(single, shape);
+        to = frame.graph.texture(single, shape);
     }
-    state.resources.to_resolve[state.resources.resolve_count++] = {from, to};
+    frame.resources.to_resolve[frame.resources.resolve_count++] = {from, to};
     return to;
 }
 
-void run(CharacterState& state, const View& view) {
-    state.graph.compile();
-    state.timers.clear();
-    const auto before = [&state, &view](const FrameGraph&, const FramePass&) {
-        if (view.timed) state.timers.start();
+void run(FrameState& frame, const ViewFrame& view) {
+    frame.graph.compile();
+    frame.timers.clear();
+    const auto before = [&frame, &view](const FrameGraph&, const FramePass&) {
+        if (view.timed) frame.timers.start();
     };
-    const auto after = [&state, &view](const FrameGraph& graph, const FramePass& pass) {
-        if (view.timed) state.timers.stop();
-        if (view.check_finite && !state.report.not_finite)
-            state.report.not_finite = state.finite_check.scan(graph, pass);
+    const auto after = [&frame, &view](const FrameGraph& graph, const FramePass& pass) {
+        if (view.timed) frame.timers.stop();
+        if (view.check_finite && !frame.report.not_finite)
+            frame.report.not_finite = frame.finite_check.scan(graph, pass);
     };
-    state.graph.execute(state.textures, before, after);
+    frame.graph.execute(frame.shared.textures, before, after);
+    // The host's further attachments were spared; those of the next picture's passes are ours.
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
     std::size_t timer = 0;
-    for (const FramePass& pass : state.graph.passes()) {
-        const double milliseconds = view.timed && pass.live ? state.timers.milliseconds(timer++) : 0;
-        state.report.passes.push_back({pass.name, pass.live, milliseconds});
+    for (const FramePass& pass : frame.graph.passes()) {
+        const double milliseconds = view.timed && pass.live ? frame.timers.milliseconds(timer++) : 0;
+        frame.report.passes.push_back({pass.name, pass.live, milliseconds});
     }
+}
+
+/// Ends the picture in `target`: what was made last goes there at once where it fills the host's framebuffer, or is
+/// laid into it.
+void declare_end(FrameState& frame, const ViewFrame& view, bool last_picture) {
+    FrameGraph& graph = frame.graph;
+    FrameResources& resources = frame.resources;
+    if (!last_picture) {
+        const ResourceId store = picture_store(frame, picture_shape(view), graph);
+        if (resources.display == resources.scene_color) {
+            declare_copy(frame, resources.display, store);
+        } else {
+            graph.forward(resources.display, store);
+        }
+        graph.present(store);
+        return;
+    }
+    const ResourceId target = graph.import_framebuffer("view", view.framebuffer, picture_shape(view));
+    const bool fills = view.backdrop == Backdrop::color && view.x == 0 && view.y == 0;
+    const bool shown_elsewhere = resources.display == resources.scene_color || graph[resources.display].imported;
+    if (fills && !shown_elsewhere) {
+        graph.forward(resources.display, target);
+    } else {
+        declare_compose(frame, resources.display, target);
+    }
+    if (view.host_depth == HostDepth::read_and_write) declare_write_depth(frame, target);
+    graph.present(target);
+}
+
+void declare_scene_images(FrameState& frame, const ViewFrame& view, bool last_picture) {
+    FrameResources& resources = frame.resources;
+    const TextureShape color{PixelFormat::rgba16f, view.width, view.height, frame.sampling.samples};
+    TextureShape depth = color;
+    depth.format = PixelFormat::depth32f;
+    resources.scene_color = shaded_image(frame, "scene colour, multisampled", "scene colour", color);
+    resources.scene_color_multisampled = resources.to_resolve[0].from;
+    resources.scene_depth = last_picture && frame.sampling.temporal ? import_kept_depth(frame, depth)
+                                                                    : frame.graph.texture("scene depth", depth);
+    if (!frame.on(scattering_effect)) return;
+    TextureShape skin_depth = color;
+    skin_depth.format = PixelFormat::rg32f;
+    resources.skin_light = shaded_image(frame, "skin light, multisampled", "skin light", color);
+    resources.skin_albedo = shaded_image(frame, "skin albedo, multisampled", "skin albedo", color);
+    resources.skin_depth = shaded_image(frame, "skin depth, multisampled", "skin depth", skin_depth);
+}
+
+void declare_picture(FrameState& frame, const ViewFrame& view) {
+    const bool last_picture = frame.picture + 1 == frame.sampling.pictures;
+    const std::uint32_t phase = frame.own<LastFrame>().phase;
+    frame.camera = view.camera;
+    frame.camera.clip_from_view = frame.clip_from_view;
+    frame.camera =
+        jittered(frame.camera, frame.sampling.sample_offset_pixels(frame.picture, phase), view.width, view.height);
+    frame.resources = {};
+    for (CharacterState* character : frame.characters) import_surface(frame, *character);
+    if (frame.picture == 0) declare_stage(frame, Stage::surface);
+    declare_stage(frame, Stage::light);
+    declare_scene_images(frame, view, last_picture);
+    if (view.host_depth != HostDepth::none) declare_read_depth(frame);
+
+    declare_shade(frame);
+    declare_stage(frame, Stage::resolve);
+    declare_stage(frame, Stage::scene);
+    frame.resources.display = frame.resources.scene_color;
+    if (view.output == Output::display_srgb) {
+        frame.resources.display = frame.graph.texture("display", picture_shape(view));
+        declare_tone(frame, frame.resources.display);
+    }
+    declare_stage(frame, Stage::filter);
+    if (frame.picture > 0) declare_stage(frame, Stage::average);
+    if (last_picture) {
+        if (frame.sampling.temporal) keep_display(frame);
+        declare_stage(frame, Stage::history);
+        if (view.output == Output::display_srgb) declare_stage(frame, Stage::display);
+    }
+    declare_end(frame, view, last_picture);
 }
 
 }  // namespace
 
-void begin_frame(CharacterState& state, const View& view) {
-    state.view = &view;
-    state.rig.evaluate(state.controls, state.pose);
-    if (state.blood) state.blood->apply(state.pose);
-    find_facts(state, view);
-    world_from_nodes(state.face, state.pose, state.head_and_eyes, state.world_from_node);
-    skinned_from_meshes(state.face, state.world_from_node, state.skinned_from_mesh);
-    place_lights_and_skin(state, view);
-    state.report.active = state.active;
-    state.report.deltas_added = 0;
-    state.report.triangles_drawn = 0;
-    state.report.passes.clear();
-    state.report.not_finite.reset();
-}
-
-void find_needs(CharacterState& state) {
-    state.report.effects.clear();
-    for (const Effect* effect : effects()) {
-        const Need need = effect->need(state);
-        const bool on = need.on || (state.facts.forced && need.can_be_forced);
-        const std::string_view reason = on && !need.on ? "forced on" : need.reason;
-        state.report.effects.push_back({effect->name, on, reason, need.omission, need.bound, need.bound_unit});
-    }
-}
-
 bool CharacterState::on(const Effect& effect) const {
-    const auto entry = std::ranges::find(report.effects, effect.name, &EffectReport::effect);
-    return entry != report.effects.end() && entry->on;
+    const std::size_t place = index_of(effect);
+    return place < effects_on.size() && effects_on[place] != 0;
 }
 
-void declare_stage(CharacterState& state, Stage stage) {
+bool FrameState::on(const Effect& effect) const {
+    const std::size_t place = index_of(effect);
+    return place < effects_on.size() && effects_on[place] != 0;
+}
+
+void FrameState::drew(CharacterState& character, std::uint32_t triangles) {
+    character.report->triangles_drawn += triangles;
+    ++character.report->draws;
+    report.triangles_drawn += triangles;
+    ++report.draws;
+}
+
+void declare_stage(FrameState& frame, Stage stage) {
     for (const Effect* effect : effects()) {
-        if (effect->stage == stage && state.on(*effect)) effect->declare(state);
+        if (effect->stage == stage && effect->declare != nullptr && frame.on(*effect)) effect->declare(frame);
     }
 }
 
-DisplayImages next_display(CharacterState& state) {
-    assert(state.images_left > 0 && "next_display() is for the steps that count_images() counts, once each");
-    const ResourceId from = state.resources.display;
-    state.resources.display = image(state, --state.images_left);
-    return {from, state.resources.display};
+DisplayImages next_display(FrameState& frame) {
+    const ResourceId from = frame.resources.display;
+    frame.resources.display = frame.graph.texture("display", picture_shape(*frame.view));
+    return {from, frame.resources.display};
 }
 
-void bind_output(CharacterState& state, const FrameGraph& graph, ResourceId image) {
+void bind_output(FrameState& frame, const FrameGraph& graph, ResourceId image) {
     const FrameResource& resource = graph[image];
     GLuint framebuffer = resource.handle;
     if (resource.kind == ResourceKind::texture) {
-        framebuffer = state.output_framebuffer.name();
+        framebuffer = frame.common->output.name();
         glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, resource.handle, 0);
+    } else {
+        constexpr GLuint most_attachments = 8;
+        for (GLuint i = 1; i < most_attachments; ++i) glColorMaski(i, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     }
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, static_cast<GLsizei>(resource.shape.width), static_cast<GLsizei>(resource.shape.height));
 }
 
-void draw_screen(const CharacterState& state) {
-    glBindVertexArray(state.no_attributes.name());
+void draw_screen(const FrameState& frame) {
+    glBindVertexArray(frame.common->no_attributes.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-namespace {
-
-void declare_picture(CharacterState& state, const View& view) {
-    const bool last_picture = state.picture + 1 == state.sampling.pictures;
-    const std::uint32_t phase = state.own<LastFrame>().phase;
-    state.camera =
-        jittered(view.camera, state.sampling.sample_offset_pixels(state.picture, phase), view.width, view.height);
-    if (state.picture == 0) {
-        import_surface(state, state.morphed());
-        declare_stage(state, Stage::surface);
-    } else {
-        import_surface(state, *state.surface);
+void begin_scene_frame(SceneState& scene, bool next) {
+    if (next) ++scene.frame;
+    scene.kept.clear();
+    scene.characters.clear();
+    std::erase_if(scene.members, [](const std::weak_ptr<CharacterState>& member) { return member.expired(); });
+    for (const std::weak_ptr<CharacterState>& member : scene.members) {
+        scene.kept.push_back(member.lock());
+        scene.characters.push_back(scene.kept.back().get());
+        place_character(*scene.characters.back());
     }
-    state.resources.shadow_maps = state.graph.import_framebuffer("shadow maps", 0, {});
-    state.resources.blood_change = state.graph.import_framebuffer("blood", 0, {});
-    declare_stage(state, Stage::light);
+}
 
-    const TextureShape color{PixelFormat::rgba16f, view.width, view.height, state.sampling.samples};
-    TextureShape depth = color;
-    depth.format = PixelFormat::depth32f;
-    state.resources.scene_color = shaded_image(state, "scene colour, multisampled", "scene colour", color);
-    state.resources.scene_color_multisampled = state.resources.to_resolve[0].from;
-    state.resources.scene_depth = last_picture && state.sampling.temporal ? import_kept_depth(state, depth)
-                                                                          : state.graph.texture("scene depth", depth);
-    if (state.on(scattering_effect)) {
-        TextureShape skin_depth = color;
-        skin_depth.format = PixelFormat::r32f;
-        state.resources.skin_light = shaded_image(state, "skin light, multisampled", "skin light", color);
-        state.resources.skin_albedo = shaded_image(state, "skin albedo, multisampled", "skin albedo", color);
-        state.resources.skin_depth = shaded_image(state, "skin depth, multisampled", "skin depth", skin_depth);
+void end_scene_frame(SceneState& scene, bool keep_surfaces) {
+    if (keep_surfaces) {
+        for (CharacterState* character : scene.characters) keep_surface(*character, scene.frame);
     }
-    state.resources.target = last_picture
-                                 ? state.graph.import_framebuffer("view", view.framebuffer, picture_shape(view))
-                                 : picture_store(state, picture_shape(view), state.graph);
-    count_images(state, view, last_picture);
+    scene.kept.clear();
+}
 
-    declare_shade(state);
-    declare_stage(state, Stage::resolve);
-    declare_stage(state, Stage::scene);
-    state.resources.display = image(state, state.images_left);
-    if (view.output == Output::display_srgb) {
-        declare_tone(state, state.resources.display);
-    } else if (state.images_left == 0 || state.images_left == state.kept_at) {
-        declare_copy(state, state.resources.scene_color, state.resources.display);
-    } else {
-        state.resources.display = state.resources.scene_color;
-    }
-    declare_stage(state, Stage::filter);
-    if (state.picture > 0) declare_stage(state, Stage::average);
-    if (last_picture) {
-        declare_stage(state, Stage::history);
-        if (state.sampling.temporal && !state.on(reprojection_effect)) {
-            const DisplayImages images = next_display(state);
-            declare_copy(state, images.from, images.to);
+void draw_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
+    const std::uint64_t compiled_before = frame.shared.programs.compiled();
+    begin_view(frame, scene, view);
+    if (make_common_passes(frame)) {
+        const auto largest = static_cast<std::uint32_t>(std::max(1, frame.device.info().largest_sample_count));
+        frame.sampling = find_sampling(frame.settings, view, largest, frame.facts.on_screen);
+        find_last_frame(frame, view);
+        frame.report.incomplete = frame.sampling.temporal && !frame.facts.has_last_frame;
+        find_needs(frame);
+        begin_pictures(frame);
+        for (frame.picture = 0; frame.picture < frame.sampling.pictures; ++frame.picture) {
+            frame.graph.clear();
+            declare_picture(frame, view);
+            run(frame, view);
         }
-        if (view.output == Output::display_srgb) declare_stage(state, Stage::display);
+        for (CharacterState* character : frame.characters) remember_surface(*character);
+        keep_for_next_frame(frame);
     }
-    state.graph.present(state.resources.target);
+    frame.report.programs_compiled = static_cast<std::uint32_t>(frame.shared.programs.compiled() - compiled_before);
+    if (std::optional<Error> failure = frame.shared.programs.take_failure()) frame.report.failure = failure->message;
 }
 
-}  // namespace
-
-void draw_frame(CharacterState& state, const View& view) {
-    begin_frame(state, view);
-    const auto largest = static_cast<std::uint32_t>(std::max(1, state.device.info().largest_sample_count));
-    state.facts.on_screen = state.facts.has_triangles && (state.facts.forced || may_be_on_screen(state, view));
-    state.sampling = find_sampling(state.settings, view, largest, state.facts.on_screen);
-    find_last_frame(state, view);
-    state.report.incomplete = state.sampling.temporal && !state.facts.has_last_frame;
-    find_needs(state);
-    state.translucency_shown = state.shadows_shown && state.on(translucency_effect);
-    begin_pictures(state);
-    for (state.picture = 0; state.picture < state.sampling.pictures; ++state.picture) {
-        state.graph.clear();
-        declare_picture(state, view);
-        run(state, view);
+void deform_only(FrameState& frame, SceneState& scene, bool forced) {
+    static const ViewFrame no_view;
+    static const ViewFrame forced_view = [] {
+        ViewFrame view;
+        view.force_effects = true;
+        return view;
+    }();
+    begin_scene_frame(scene, false);
+    begin_view(frame, scene, forced ? forced_view : no_view);
+    frame.sampling = {};
+    frame.picture = 0;
+    frame.graph.clear();
+    find_needs(frame);
+    for (CharacterState* character : frame.characters) import_surface(frame, *character);
+    declare_stage(frame, Stage::surface);
+    for (CharacterState* character : frame.characters) {
+        const auto& resources = character->resources;
+        for (const ResourceId id : {resources.positions, resources.normals, resources.tangents,
+                                    resources.morphed_positions, resources.morphed_normals, resources.morphed_tangents})
+            frame.graph.present(id);
     }
-    remember_deformation(state);
-    keep_for_next_frame(state, view);
-}
-
-void deform_only(CharacterState& state) {
-    static const View no_view;
-    begin_frame(state, no_view);
-    state.sampling = {};
-    state.graph.clear();
-    find_needs(state);
-    import_surface(state, state.morphed());
-    declare_stage(state, Stage::surface);
-    state.graph.present(state.resources.morphed_positions);
-    state.graph.present(state.resources.morphed_normals);
-    state.graph.present(state.resources.morphed_tangents);
-    run(state, no_view);
-    remember_deformation(state);
+    run(frame, *frame.view);
+    for (CharacterState* character : frame.characters) remember_surface(*character);
+    scene.kept.clear();
 }
 
 }  // namespace blush

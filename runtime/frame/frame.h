@@ -1,44 +1,54 @@
 #pragma once
 /// The one place where a frame is declared and run.
 
-#include "runtime/frame/character_state.h"
+#include <span>
+
 #include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
 
 namespace blush {
 
-/// Evaluates the rig and brings the facts that predicates look at up to date.
-void begin_frame(CharacterState& state, const View& view);
+/// Starts a frame of a scene: evaluates every character's rig and finds where it stands. Once, whatever the number of
+/// views.
+/// next: false where the frame before is only looked at again, as by deform_only().
+void begin_scene_frame(SceneState& scene, bool next = true);
+/// Keeps what the next frame compares itself with, after the last view.
+void end_scene_frame(SceneState& scene, bool keep_surfaces);
 
-/// Asks every effect whether the scene needs it; the answers stand in the report and in CharacterState::on().
-void find_needs(CharacterState& state);
+/// Draws one view of the frame that begin_scene_frame() started; frame.report says what was done.
+void draw_view(FrameState& frame, SceneState& scene, const ViewFrame& view);
+
+/// Makes the surfaces of a scene's characters, and nothing else.
+void deform_only(FrameState& frame, SceneState& scene, bool forced = false);
 
 /// Declares the passes of the effects of one stage that are on, in the registry's order.
-void declare_stage(CharacterState& state, Stage stage);
+void declare_stage(FrameState& frame, Stage stage);
 
-/// Draws a frame; state.report says what was done.
-void draw_frame(CharacterState& state, const View& view);
-
-/// Runs the effects alone and leaves the deformed surface in its buffers.
-void deform_only(CharacterState& state);
-
-/// The picture as far as it has come, and the image that the calling step writes: for the last step the view's own
-/// framebuffer, else a texture of picture_format(). Call once for each effect of the stages after `scene` that declares
-/// itself.
+/// The picture as far as it has come, and the image that the calling step writes. Call once for each step after the
+/// scene.
 struct DisplayImages {
     ResourceId from{}, to{};
 };
-DisplayImages next_display(CharacterState& state);
+DisplayImages next_display(FrameState& frame);
 
 /// Binds the framebuffer that draws into `image` (a framebuffer or a single-sampled colour texture of the graph), with
-/// the viewport of its size.
-void bind_output(CharacterState& state, const FrameGraph& graph, ResourceId image);
+/// the viewport of its size. Of a framebuffer of the host's only the first colour attachment is written.
+void bind_output(FrameState& frame, const FrameGraph& graph, ResourceId image);
 
 /// One triangle over the whole of what is bound, with the program in use.
-void draw_screen(const CharacterState& state);
+void draw_screen(const FrameState& frame);
 
-/// Passes that every frame has, in passes/.
-void declare_shade(CharacterState& state);
-void declare_tone(CharacterState& state, ResourceId to);
-void declare_copy(CharacterState& state, ResourceId from, ResourceId to);
+/// Passes that every frame has, in passes/. declare_copy: between textures.
+void declare_shade(FrameState& frame);
+void declare_tone(FrameState& frame, ResourceId to);
+void declare_copy(FrameState& frame, ResourceId from, ResourceId to);
+/// The host's depth into the scene's, before anything is shaded.
+void declare_read_depth(FrameState& frame);
+/// The scene's depth into the host's.
+void declare_write_depth(FrameState& frame, ResourceId target);
+/// A picture over what the host's framebuffer holds, or over its rectangle there.
+void declare_compose(FrameState& frame, ResourceId from, ResourceId target);
+/// Makes the device's CommonPasses where they are not there yet, and sets frame.common.
+bool make_common_passes(FrameState& frame);
 
 }  // namespace blush

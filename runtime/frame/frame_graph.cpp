@@ -59,9 +59,17 @@ FrameGraph& FrameGraph::writes(ResourceId resource) { return use(resource, Acces
 FrameGraph& FrameGraph::modifies(ResourceId resource) { return use(resource, Access::modify); }
 void FrameGraph::present(ResourceId resource) { presented_.push_back(resource); }
 
+void FrameGraph::forward(ResourceId from, ResourceId to) {
+    FrameResource& source = resources_[place_of(from)];
+    const std::uint32_t target = place_of(to);
+    assert(!source.imported && resources_[target].imported && "FrameGraph::forward: a transient to what is imported");
+    source.forwarded_to = static_cast<std::int32_t>(target);
+}
+
 void FrameGraph::compile() {
     wanted_.assign(resources_.size(), 0);
-    for (const ResourceId id : presented_) wanted_[static_cast<std::uint32_t>(id)] = 1;
+    for (Use& use : uses_) use.resource = static_cast<ResourceId>(place_of(use.resource));
+    for (const ResourceId id : presented_) wanted_[place_of(id)] = 1;
 
     // Backwards: a pass is live when something further on wants what it writes. A plain write satisfies the want, so
     // that whatever wrote the resource before it is not wanted for it.

@@ -21,6 +21,7 @@ enum class PixelFormat : std::uint8_t {
     rg16f,
     rgba16f,
     r32f,
+    rg32f,
     rgba32f,
     depth32f,
     depth32f_stencil8,
@@ -53,6 +54,7 @@ struct FrameResource {
     std::uint32_t handle = 0;      ///< name of the object in its API; of a transient texture only while it is alive
     bool imported = false;         ///< lives longer than the frame
     std::int32_t first_use = -1, last_use = -1;  ///< live passes, by index; -1: never alive
+    std::int32_t forwarded_to = -1;              ///< index of the resource that stands in its place; -1: none
 };
 
 /// Makes textures and takes them back; keeps them from frame to frame.
@@ -98,6 +100,9 @@ public:
     FrameGraph& writes(ResourceId resource);    ///< starts it anew: what was in it before is not needed
     FrameGraph& modifies(ResourceId resource);  ///< needs what earlier passes wrote
     void present(ResourceId resource);
+    /// What passes write to the transient `from` goes to `to` instead, an imported texture or framebuffer of the same
+    /// size: the maker of a picture need not know where it will end. Before compile().
+    void forward(ResourceId from, ResourceId to);
 
     /// Culls and finds lifetimes. Call once, after the last pass.
     void compile();
@@ -108,7 +113,7 @@ public:
 
     std::span<const FramePass> passes() const { return passes_; }
     std::span<const FrameResource> resources() const { return resources_; }
-    const FrameResource& operator[](ResourceId id) const { return resources_[static_cast<std::uint32_t>(id)]; }
+    const FrameResource& operator[](ResourceId id) const { return resources_[place_of(id)]; }
 
     /// Calls `visit` with each resource that `pass` writes or modifies.
     template <class Visit>
@@ -128,6 +133,12 @@ private:
     void add_pass(std::string_view name, std::function<void(const FrameGraph&)> run);
     FrameGraph& use(ResourceId resource, Access access);
     ResourceId add_resource(FrameResource resource);
+    /// Index of the resource that `id` stands for, after forwarding.
+    std::uint32_t place_of(ResourceId id) const {
+        const FrameResource& resource = resources_[static_cast<std::uint32_t>(id)];
+        return resource.forwarded_to < 0 ? static_cast<std::uint32_t>(id)
+                                         : static_cast<std::uint32_t>(resource.forwarded_to);
+    }
 
     std::vector<FramePass> passes_;
     std::vector<FrameResource> resources_;

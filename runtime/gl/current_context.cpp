@@ -6,6 +6,9 @@
 
 namespace blush::gl {
 
-bool context_is_current() { return eglGetCurrentContext() != EGL_NO_CONTEXT || glXGetCurrentContext() != nullptr; }
+ContextName current_context() {
+    const EGLContext egl = eglGetCurrentContext();
+    return {egl == EGL_NO_CONTEXT ? nullptr : egl, glXGetCurrentContext()};
+}
 
 }  // namespace blush::gl

@@ -1,5 +1,5 @@
 #pragma once
-/// GL objects that delete themselves. A name of 0 is an empty handle.
+/// GL objects that delete themselves (runtime/gl/deletions.h). A name of 0 is an empty handle.
 
 #include <epoxy/gl.h>
 
@@ -7,9 +7,11 @@
 #include <span>
 #include <utility>
 
+#include "runtime/gl/deletions.h"
+
 namespace blush::gl {
 
-template <void (*Delete)(GLuint)>
+template <ObjectKind Kind>
 class Object {
 public:
     Object() = default;
@@ -22,33 +24,22 @@ public:
     Object(const Object&) = delete;
     Object& operator=(const Object&) = delete;
     ~Object() {
-        if (name_ != 0) Delete(name_);
+        if (name_ != 0) delete_object(Kind, name_);
     }
     GLuint name() const { return name_; }
-    /// Leaves the object to the caller.
-    GLuint release() { return std::exchange(name_, 0); }
     explicit operator bool() const { return name_ != 0; }
 
 private:
     GLuint name_ = 0;
 };
 
-inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
-inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
-inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
-inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-inline void delete_query(GLuint name) { glDeleteQueries(1, &name); }
-inline void delete_transform_feedback(GLuint name) { glDeleteTransformFeedbacks(1, &name); }
-
-inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
-
-using Sampler = Object<delete_sampler>;
-using Buffer = Object<delete_buffer>;
-using Texture = Object<delete_texture>;
-using VertexArray = Object<delete_vertex_array>;
-using Framebuffer = Object<delete_framebuffer>;
-using Query = Object<delete_query>;
-using TransformFeedback = Object<delete_transform_feedback>;
+using Sampler = Object<ObjectKind::sampler>;
+using Buffer = Object<ObjectKind::buffer>;
+using Texture = Object<ObjectKind::texture>;
+using VertexArray = Object<ObjectKind::vertex_array>;
+using Framebuffer = Object<ObjectKind::framebuffer>;
+using Query = Object<ObjectKind::query>;
+using TransformFeedback = Object<ObjectKind::feedback>;
 
 inline Buffer make_buffer() {
     GLuint name = 0;

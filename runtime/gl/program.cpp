@@ -2,10 +2,9 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "runtime/gl/shared_blocks.h"
@@ -164,10 +163,24 @@ Result<std::string> expand_shader(std::string_view file, std::span<const std::st
 
 namespace {
 
-void delete_program(GLuint name) { glDeleteProgram(name); }
+/// A program that is being made: deleted where that fails.
+class NewProgram {
+public:
+    NewProgram() : name_(glCreateProgram()) {}
+    ~NewProgram() {
+        if (name_ != 0) glDeleteProgram(name_);
+    }
+    NewProgram(const NewProgram&) = delete;
+    NewProgram& operator=(const NewProgram&) = delete;
+    GLuint name() const { return name_; }
+    GLuint release() { return std::exchange(name_, 0); }
+
+private:
+    GLuint name_;
+};
 
 Result<Program> compile_program(const ProgramSource& source) {
-    Object<delete_program> program(glCreateProgram());
+    NewProgram program;
     const auto attach = [&](GLenum stage, std::string_view file) -> Status {
         const Result<GLuint> shader = compile(stage, file, source.defines);
         if (!shader) return shader.error();
@@ -227,24 +240,32 @@ void ProgramCache::clear() {
 Result<Program> ProgramCache::get(const ProgramSource& source) {
     const std::string key = key_of(source);
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+    ++compiled_;
     Result<Program> made = compile_program(source);
     if (made) programs_.emplace(key, *made);
     return made;
 }
+
+void ProgramCache::fail(Error error) {
+    if (!failure_) failure_ = std::move(error);
+}
+
+std::optional<Error> ProgramCache::take_failure() { return std::exchange(failure_, std::nullopt); }
 
 Result<Program> make_program(const ProgramSource& source) {
     if (current_cache == nullptr) return Error{"no device is current on this thread"};
     return current_cache->get(source);
 }
 
-void require_program(Program& program, const ProgramSource& source) {
-    if (program) return;
+bool require_program(Program& program, const ProgramSource& source) {
+    if (program) return true;
     Result<Program> made = make_program(source);
     if (!made) {
-        std::fprintf(stderr, "blush: %s\n", made.error().message.c_str());
-        std::abort();
+        if (current_cache != nullptr) current_cache->fail(made.error());
+        return false;
     }
     program = *std::move(made);
+    return true;
 }
 
 }  // namespace blush::gl

@@ -1,8 +1,10 @@
 #pragma once
 /// Programs from the embedded shaders, each compiled once for a context.
 
+#include <cstdint>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,11 +50,18 @@ public:
     void clear();
 
     std::size_t size() const { return programs_.size(); }
+    /// How often a program was compiled since the cache was made.
+    std::uint64_t compiled() const { return compiled_; }
+    /// Keeps the first error until it is taken.
+    void fail(Error error);
+    std::optional<Error> take_failure();
     /// As make_program().
     Result<Program> get(const ProgramSource& source);
 
 private:
     std::map<std::string, Program, std::less<>> programs_;
+    std::uint64_t compiled_ = 0;
+    std::optional<Error> failure_;
 };
 
 /// The program of these sources in the current cache. Where it is not there yet: compiles and links, and checks every
@@ -60,9 +69,9 @@ private:
 /// it is a defect of the library or of the driver, never of the user's data.
 Result<Program> make_program(const ProgramSource& source);
 
-/// For programs that are made when a frame first needs them, where nobody can take an error: a failure is a defect, and
-/// ends the process with the sentence that make_program() would give.
-void require_program(Program& program, const ProgramSource& source);
+/// For programs that are made when a frame first needs them, where nobody can take an error: a failure is kept for the
+/// frame to report (ProgramCache::take_failure), and `program` stays none. Returns whether there is a program.
+bool require_program(Program& program, const ProgramSource& source);
 
 /// Compares each uniform block of shared.glsl that `program` has, as the driver laid it out, with its C++ struct.
 /// Error: the block or field that differs; `file` names the shader in it. make_program() asks this.

@@ -20,6 +20,8 @@ GLenum internal_format(PixelFormat format) {
             return GL_RGBA16F;
         case PixelFormat::r32f:
             return GL_R32F;
+        case PixelFormat::rg32f:
+            return GL_RG32F;
         case PixelFormat::rgba32f:
             return GL_RGBA32F;
         case PixelFormat::depth32f:

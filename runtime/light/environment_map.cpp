@@ -36,8 +36,8 @@ float finite_or(float value, float otherwise) { return std::isfinite(value) ? va
 
 }  // namespace
 
-void write_ambient(const CharacterState& state, shared::FrameBlock& block) {
-    const Lighting& lighting = *state.lighting;
+void write_ambient(const FrameState& frame, shared::FrameBlock& block) {
+    const Lighting& lighting = *frame.lighting;
     if (lighting.environment == nullptr) {
         write_sky(lighting.sky_radiance_linear, lighting.ground_radiance_linear, block);
         return;
@@ -62,9 +62,9 @@ void write_ambient(const CharacterState& state, shared::FrameBlock& block) {
     block.environment = {factor, static_cast<float>(lighting.environment->levels.size()) - 1, turn, 0};
 }
 
-void bind_environment(CharacterState& state) {
-    auto& map = state.own<EnvironmentMap>();
-    const Environment& environment = *state.lighting->environment;
+void bind_environment(FrameState& frame) {
+    auto& map = frame.scene->own<EnvironmentMap>();
+    const Environment& environment = *frame.lighting->environment;
     if (map.identity != environment.identity) {
         map.texture = gl::make_texture(GL_TEXTURE_2D);
         const auto levels = static_cast<GLsizei>(environment.levels.size());

@@ -9,15 +9,15 @@ namespace blush {
 
 static_assert(most_occlusion_poses <= 4 * std::extent_v<decltype(shared::FrameBlock::occlusion_weights)>);
 
-void write_occlusion_weights(const CharacterState& state, shared::FrameBlock& block) {
-    const OcclusionSet& set = *state.occlusion;
+void write_occlusion_weights(const CharacterState& character, shared::FrameBlock& block) {
+    const OcclusionSet& set = *character.facts_of_face.occlusion;
     std::array<float, most_occlusion_poses> weights{};
-    occlusion_weights(set, state.face, state.pose.weights, std::span(weights).first(set.poses.size()));
+    occlusion_weights(set, character.face, character.pose.weights, std::span(weights).first(set.poses.size()));
     for (std::size_t p = 0; p < set.poses.size(); ++p) {
         block.occlusion_weights[p / 4][static_cast<glm::length_t>(p % 4)] = weights[p];
     }
-    block.occlusion_poses = {static_cast<int>(set.poses.size()), static_cast<int>(state.face.positions.size()),
-                             state.settings.choice(occlusion_effect.name, "bounces") == 0 ? 1 : 0, 0};
+    block.occlusion_poses = {static_cast<int>(set.poses.size()), static_cast<int>(character.face.positions.size()),
+                             character.settings.choice(occlusion_effect.name, "bounces") == 0 ? 1 : 0, 0};
 }
 
 std::vector<glm::vec4> packed_occlusion(const OcclusionSet& set) {
@@ -37,9 +37,10 @@ std::vector<glm::vec4> packed_occlusion(const OcclusionSet& set) {
     return packed;
 }
 
-void bind_occlusion(CharacterState& state) {
-    auto& own = state.own<OcclusionBuffer>();
-    if (!own.coefficients) own.coefficients = gl::make_buffer<glm::vec4>(packed_occlusion(*state.occlusion));
+void bind_occlusion(CharacterState& character) {
+    auto& own = character.model->own<OcclusionBuffer>();
+    if (!own.coefficients)
+        own.coefficients = gl::make_buffer<glm::vec4>(packed_occlusion(*character.facts_of_face.occlusion));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BLUSH_OCCLUSION_BINDING, own.coefficients.name());
 }
 

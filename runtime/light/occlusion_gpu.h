@@ -1,15 +1,15 @@
 #pragma once
-/// The occlusion coefficients of a character on the GPU.
+/// The occlusion coefficients of a face on the GPU.
 
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 
 namespace blush {
 
 /// Fills the block's poses and their weights. The face must have coefficients.
-void write_occlusion_weights(const CharacterState& state, shared::FrameBlock& block);
+void write_occlusion_weights(const CharacterState& character, shared::FrameBlock& block);
 
 /// Binds the coefficients, uploaded when first asked for.
-void bind_occlusion(CharacterState& state);
+void bind_occlusion(CharacterState& character);
 
 /// The buffer's contents: three entries a vertex and pose, as shaders/light/occlusion.glsl reads them.
 std::vector<glm::vec4> packed_occlusion(const OcclusionSet& set);

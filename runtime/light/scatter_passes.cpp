@@ -1,6 +1,5 @@
 #include "runtime/light/scatter_passes.h"
 
-#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -13,16 +12,37 @@ glm::vec4 with(glm::dvec3 rgb, double w) { return {glm::vec3(rgb), static_cast<f
 
 }  // namespace
 
-const gl::Program& ScatterPasses::program(Kind kind, bool composite) {
-    gl::Program& kept = programs_[static_cast<std::size_t>(kind) * 2 + (composite ? 1 : 0)];
+void ScatterTable::write(std::span<const ScatterCharacter> characters,
+                         std::span<const std::vector<KernelTap>> kernels) {
+    values_.assign(BLUSH_MOST_SCATTERING, glm::vec4(0, 0, 1, -2));
+    const std::size_t taps = kernels.empty() || kernels[0].empty() ? 0 : kernels[0].size() - 1;
+    for (const ScatterCharacter& character : characters) {
+        values_[character.number % BLUSH_MOST_SCATTERING] =
+            glm::vec4(static_cast<float>(character.profile * taps), static_cast<float>(character.follow_mm),
+                      static_cast<float>(character.scale), static_cast<float>(character.profile));
+    }
+    for (const std::vector<KernelTap>& kernel : kernels) {
+        for (const KernelTap& tap : kernel) {
+            if (tap.offset_mm != 0) values_.push_back(with(tap.weight, tap.offset_mm));
+        }
+    }
+    const std::size_t bytes = values_.size() * sizeof(glm::vec4);
+    if (capacity_ < bytes) {
+        capacity_ = 2 * bytes;
+        buffer_ = gl::make_buffer(capacity_, nullptr, GL_DYNAMIC_STORAGE_BIT);
+    }
+    glNamedBufferSubData(buffer_.name(), 0, static_cast<GLsizeiptr>(bytes), values_.data());
+}
+
+const gl::Program& ScatterPasses::program(Kind kind, bool composite, bool many) {
+    gl::Program& kept = programs_[static_cast<std::size_t>(kind) * 4 + (composite ? 1 : 0) + (many ? 2 : 0)];
     if (kept) return kept;
     constexpr std::array<std::string_view, 7> defines_of_kind = {"TAPS 9",   "TAPS 17",  "TAPS 25", "TAPS 33",
                                                                  "GAUSSIAN", "JITTERED", "PLAIN"};
     std::vector<std::string_view> defines = {defines_of_kind[static_cast<std::size_t>(kind)]};
     if (composite) defines.emplace_back("COMPOSITE");
-    Result<gl::Program> made = gl::make_program({"screen.vert", "light/scatter.frag", defines});
-    assert(made && "scatter.frag does not compile");
-    kept = *std::move(made);
+    if (many) defines.emplace_back("MANY");
+    gl::require_program(kept, {"screen.vert", "light/scatter.frag", defines});
     if (!framebuffer_) {
         framebuffer_ = gl::make_framebuffer();
         no_attributes_ = gl::make_vertex_array();
@@ -43,21 +63,29 @@ void ScatterPasses::begin(const ScatterInput& input, const gl::Program& used, GL
     glBindSampler(BLUSH_SKIN_ALBEDO_UNIT, 0);
     glUniform2f(0, static_cast<float>(input.projection.scale.x), static_cast<float>(input.projection.scale.y));
     glUniform1f(1, static_cast<float>(input.projection.perspective));
-    glUniform1f(2, static_cast<float>(input.follow_mm));
+    if (input.table != nullptr) {
+        glUniform1i(43, input.only_profile);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BLUSH_SCATTER_BINDING, input.table->name());
+    } else {
+        glUniform1f(2, static_cast<float>(input.follow_mm));
+    }
     glBindVertexArray(no_attributes_.name());
 }
 
 void ScatterPasses::separable(const ScatterInput& input, const std::vector<KernelTap>& taps,
                               const ScatterScratch& scratch, GLuint scene) {
     const auto kind = static_cast<Kind>((taps.size() - 9) / 8);
-    std::vector<glm::vec4> packed;
+    const bool many = input.table != nullptr;
+    packed_.clear();
     for (const KernelTap& tap : taps) {
-        if (tap.offset_mm != 0) packed.push_back(with(tap.weight, tap.offset_mm));
+        if (tap.offset_mm != 0) packed_.push_back(with(tap.weight, tap.offset_mm));
     }
-    const auto set_taps = [&packed] { glUniform4fv(11, static_cast<GLsizei>(packed.size()), &packed[0].x); };
+    const auto set_taps = [this, many] {
+        if (!many) glUniform4fv(11, static_cast<GLsizei>(packed_.size()), &packed_[0].x);
+    };
     // The first pass knows skin by its matte and marks it; in the second one the stencil test spares all else
     // (jimenez-2012, 6.3).
-    const gl::Program& across = program(kind, false);
+    const gl::Program& across = program(kind, false, many);
     begin(input, across, input.light, scratch.first);
     glNamedFramebufferTexture(framebuffer_.name(), GL_STENCIL_ATTACHMENT, scratch.stencil, 0);
     const GLint unmarked = 0;
@@ -72,7 +100,7 @@ void ScatterPasses::separable(const ScatterInput& input, const std::vector<Kerne
     set_taps();
     glDrawArrays(GL_TRIANGLES, 0, 3);
 
-    begin(input, program(kind, true), scratch.first, scene);
+    begin(input, program(kind, true, many), scratch.first, scene);
     glStencilFunc(GL_EQUAL, 1, 0xff);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     glEnable(GL_BLEND);
@@ -88,12 +116,13 @@ void ScatterPasses::separable(const ScatterInput& input, const std::vector<Kerne
 void ScatterPasses::gaussians(const ScatterInput& input, std::span<const GaussianTerm> profile,
                               const ScatterScratch& scratch, GLuint scene) {
     const auto width = static_cast<GLsizei>(input.width), height = static_cast<GLsizei>(input.height);
-    const gl::Program& blur = program(Kind::gaussian, false);
+    const gl::Program& blur = program(Kind::gaussian, false, input.table != nullptr);
     for (const GLuint target : {scratch.first, scratch.second}) {
         glClearTexImage(target, 0, GL_RGBA, GL_FLOAT, nullptr);
     }
-    glCopyImageSubData(input.light, GL_TEXTURE_2D, 0, 0, 0, 0, scratch.third, GL_TEXTURE_2D, 0, 0, 0, 0, width, height,
-                       1);
+    if (input.only_profile <= 0)
+        glCopyImageSubData(input.light, GL_TEXTURE_2D, 0, 0, 0, 0, scratch.third, GL_TEXTURE_2D, 0, 0, 0, 0, width,
+                           height, 1);
     std::array<float, 4> weights{};
     double total = 0;
     for (int k = -3; k <= 3; ++k) total += std::exp(-0.5 * k * k);
@@ -117,14 +146,14 @@ void ScatterPasses::gaussians(const ScatterInput& input, std::span<const Gaussia
         // Accumulated by blending with the weights of eq. 4.8 (there in one pass with the blur, by two targets).
         weight_so_far += profile[g].weight;
         const glm::vec3 share(profile[g].weight / weight_so_far);
-        begin(input, program(Kind::plain, false), light, scratch.third);
+        begin(input, program(Kind::plain, false, input.table != nullptr), light, scratch.third);
         glEnable(GL_BLEND);
         glBlendColor(share.r, share.g, share.b, 1);
         glBlendFuncSeparate(GL_CONSTANT_COLOR, GL_ONE_MINUS_CONSTANT_COLOR, GL_ONE, GL_ZERO);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glDisable(GL_BLEND);
     }
-    begin(input, program(Kind::plain, true), scratch.third, scene);
+    begin(input, program(Kind::plain, true, input.table != nullptr), scratch.third, scene);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -132,7 +161,7 @@ void ScatterPasses::gaussians(const ScatterInput& input, std::span<const Gaussia
 }
 
 void ScatterPasses::jittered(const ScatterInput& input, const JitteredKernel& kernel, GLuint scene) {
-    begin(input, program(Kind::jittered, true), input.light, scene);
+    begin(input, program(Kind::jittered, true, input.table != nullptr), input.light, scene);
     const glm::vec4 middle = with(kernel.middle.weight / 6.0, kernel.middle.radius_mm);
     const glm::vec4 wide = with(kernel.wide.weight / 6.0, kernel.wide.radius_mm);
     glUniform4fv(9, 1, &middle.x);

@@ -18,6 +18,29 @@ struct ScatterInput {
     std::uint32_t width = 0, height = 0;
     ScatterProjection projection;
     double follow_mm = 0;
+    /// Of several characters (shaders/light/scatter.frag, MANY); null: one, with the kernel that is passed.
+    const gl::Buffer* table = nullptr;
+    std::int32_t only_profile = -1;  ///< with a table
+};
+
+/// What scatters in one character's skin, for several characters in one image.
+struct ScatterCharacter {
+    std::uint32_t number = 0;   ///< as shading writes it
+    std::uint32_t profile = 0;  ///< index of its kernel
+    double follow_mm = 0;
+    double scale = 1;  ///< factor on ScatterInput::projection
+};
+
+/// Fills a table for ScatterInput. kernels: of each profile, all of one length. Reuses the memory of `buffer`.
+class ScatterTable {
+public:
+    void write(std::span<const ScatterCharacter> characters, std::span<const std::vector<KernelTap>> kernels);
+    const gl::Buffer& buffer() const { return buffer_; }
+
+private:
+    gl::Buffer buffer_;
+    std::size_t capacity_ = 0;
+    std::vector<glm::vec4> values_;
 };
 
 /// Textures of the image's size that the passes may overwrite: rgba16f, and 8 bits of stencil for `stencil`.
@@ -42,10 +65,11 @@ public:
 
 private:
     enum class Kind : std::uint8_t { separable9, separable17, separable25, separable33, gaussian, jittered, plain };
-    const gl::Program& program(Kind kind, bool composite);
+    const gl::Program& program(Kind kind, bool composite, bool many);
     void begin(const ScatterInput& input, const gl::Program& program, GLuint light, GLuint target);
 
-    std::array<gl::Program, 14> programs_;
+    std::array<gl::Program, 28> programs_;
+    std::vector<glm::vec4> packed_;
     gl::Framebuffer framebuffer_;
     gl::VertexArray no_attributes_;
 };

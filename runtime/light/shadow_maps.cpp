@@ -1,48 +1,127 @@
 #include "runtime/light/shadow_maps.h"
 
 #include <algorithm>
-
-#include "runtime/frame/effect.h"
-#include "runtime/light/scene_lights.h"
+#include <cmath>
 
 namespace blush {
+namespace {
 
-std::uint32_t shadow_map_side(const CharacterState& state) {
-    return 512U << state.settings.choice(shadows_effect.name, "size");
+/// Side of a map as the settings want it; smaller where so many maps would not fit.
+std::uint32_t map_side(const FrameState& frame, std::size_t count) {
+    std::uint32_t side = 512U << frame.scene->settings.choice("shadows", "size");
+    const auto largest = static_cast<std::uint64_t>(frame.device.info().largest_texture_side_texels);
+    constexpr std::uint32_t least_side = 64;
+    const auto fits = [&](std::uint64_t s) {
+        const std::uint64_t a_row = std::max<std::uint64_t>(1, largest / s);
+        return s * s * count <= most_shadow_texels && (count + a_row - 1) / a_row * s <= largest;
+    };
+    while (side > least_side && !fits(side)) side /= 2;
+    return side;
 }
 
-void place_shadow_maps(CharacterState& state) {
-    state.shader_lights.clear();
-    std::uint32_t maps = 0;
-    const std::uint32_t side = shadow_map_side(state);
-    // Where the device's textures end, further lights shine without shadows.
-    const std::uint32_t most = static_cast<std::uint32_t>(state.device.info().largest_texture_side_texels) / side;
-    const bool sharp = state.settings.choice(shadows_effect.name, "edges") == 1;
-    for (const LightSource& source : state.lights) {
-        shared::Light light = shader_light(source);
-        if (source.casts_shadow && maps < most && place_shadow_map(source, state.bounds, side, maps, light)) ++maps;
-        if (sharp) light.shadow_depth.z = 0;
-        state.shader_lights.push_back(light);
+/// How much farther from a light than the receiver's sphere all that may cast into it begins.
+double nearest_caster(const FrameState& frame, const LightSource& light, const CharacterState& receiver) {
+    double result = 0;
+    for (const CharacterState* caster : frame.characters) {
+        double nearer = 0;
+        if (caster != &receiver && casts_into(light, *caster, receiver, &nearer)) result = std::max(result, nearer);
+    }
+    return result;
+}
+
+}  // namespace
+
+bool casts_into(const LightSource& light, const CharacterState& caster, const CharacterState& receiver,
+                double* nearer) {
+    if (&caster == &receiver) return true;
+    const double r = receiver.radius_world, c = caster.radius_world;
+    if (light.kind == LightKind::directional) {
+        const glm::dvec3 along = glm::normalize(glm::dvec3(light.direction_world));
+        const glm::dvec3 apart = caster.centre_world - receiver.centre_world;
+        const double behind = glm::dot(apart, along);
+        // The map is a square around the receiver's sphere.
+        if (glm::length(apart - behind * along) > std::sqrt(2.0) * r + c || behind > r + c) return false;
+        if (nearer != nullptr) *nearer = c - r - behind;
+        return true;
+    }
+    const glm::dvec3 to_receiver = receiver.centre_world - light.position_world,
+                     to_caster = caster.centre_world - light.position_world;
+    const double receiver_distance = glm::length(to_receiver), caster_distance = glm::length(to_caster);
+    if (caster_distance - c > receiver_distance + r) return false;
+    if (nearer != nullptr) *nearer = (receiver_distance - r) - (caster_distance - c);
+    if (caster_distance <= c || receiver_distance <= r) return true;
+    const double angle =
+        std::acos(std::clamp(glm::dot(to_receiver, to_caster) / (receiver_distance * caster_distance), -1.0, 1.0));
+    const double half = std::atan(std::sqrt(2.0) * std::tan(std::asin(r / receiver_distance)));
+    return angle <= half + std::asin(c / caster_distance);
+}
+
+void place_shadow_maps(FrameState& frame) {
+    auto& maps = frame.scene->own<ShadowMaps>();
+    maps.maps.clear();
+    const bool off = frame.scene->settings.choice("shadows", "method") == 1;
+    const bool sharp = frame.scene->settings.choice("shadows", "edges") == 1;
+    for (CharacterState* character : frame.characters) {
+        character->shader_lights.clear();
+        character->shadow_lights = 0;
+        for (const std::uint32_t l : character->reaching) {
+            const LightSource& source = frame.lights[l];
+            character->shader_lights.push_back(shader_light(source, character->origin_world));
+            if (off || !source.casts_shadow) continue;
+            const std::optional<ShadowPlace> place = place_shadow_map(
+                source, character->centre_world, character->radius_world, nearest_caster(frame, source, *character));
+            if (!place) continue;
+            // The tile follows once all maps are counted.
+            character->shader_lights.back().shadow.x = static_cast<float>(maps.maps.size());
+            ++character->shadow_lights;
+            maps.maps.push_back({character->index, l, *place, {}});
+        }
+    }
+    if (maps.maps.empty()) return;
+    const std::uint32_t side = map_side(frame, maps.maps.size());
+    const auto largest = static_cast<std::uint32_t>(frame.device.info().largest_texture_side_texels);
+    const std::uint32_t a_row = std::max(1U, largest / side);
+    for (CharacterState* character : frame.characters) {
+        for (shared::Light& light : character->shader_lights) {
+            if (light.shadow.x < 0) continue;
+            const auto index = static_cast<std::uint32_t>(light.shadow.x);
+            ShadowMaps::Map& map = maps.maps[index];
+            map.tile = {index % a_row * side, index / a_row * side, side};
+            write_shadow(map.place, map.tile, character->origin_world, light);
+            if (sharp) light.shadow_depth.z = 0;
+        }
     }
 }
 
-std::uint32_t shadow_light_count(const CharacterState& state) {
-    return static_cast<std::uint32_t>(
-        std::ranges::count_if(state.shader_lights, [](const shared::Light& light) { return light.shadow.x >= 0; }));
+bool shadow_maps_current(const FrameState& frame) {
+    const auto& maps = frame.scene->own<ShadowMaps>();
+    const bool same_characters =
+        std::ranges::equal(maps.drawn_characters, frame.characters,
+                           [](const CharacterState* drawn, const CharacterState* now) { return drawn == now; });
+    if (!maps.valid || !same_characters || maps.drawn_places.size() != maps.maps.size()) return false;
+    if (!(maps.drawn_settings[0] == frame.scene->settings)) return false;
+    for (std::size_t c = 0; c < frame.characters.size(); ++c) {
+        const CharacterState& character = *frame.characters[c];
+        if (!(maps.drawn_settings[c + 1] == character.settings) || !(maps.drawn_stances[c] == character.stance)) {
+            return false;
+        }
+    }
+    return std::ranges::equal(maps.maps, maps.drawn_places, {}, &ShadowMaps::Map::place);
 }
 
-bool shadow_maps_current(const CharacterState& state) {
-    const auto& maps = const_cast<CharacterState&>(state).own<ShadowMaps>();
-    if (!maps.valid || maps.drawn_active != state.active || !(maps.drawn_settings == state.settings) ||
-        maps.drawn_nodes != state.world_from_node || maps.drawn_joints != state.skinned_from_mesh) {
-        return false;
+void keep_shadow_maps(FrameState& frame) {
+    auto& maps = frame.scene->own<ShadowMaps>();
+    maps.drawn_places.clear();
+    for (const ShadowMaps::Map& map : maps.maps) maps.drawn_places.push_back(map.place);
+    maps.drawn_characters.assign(frame.characters.begin(), frame.characters.end());
+    maps.drawn_stances.resize(frame.characters.size());
+    maps.drawn_settings.resize(frame.characters.size() + 1);
+    maps.drawn_settings[0] = frame.scene->settings;
+    for (std::size_t c = 0; c < frame.characters.size(); ++c) {
+        maps.drawn_stances[c] = frame.characters[c]->stance;
+        maps.drawn_settings[c + 1] = frame.characters[c]->settings;
     }
-    std::size_t map = 0;
-    for (const shared::Light& light : state.shader_lights) {
-        if (light.shadow.x < 0) continue;
-        if (map >= maps.drawn_views.size() || maps.drawn_views[map++] != light.shadow_from_world) return false;
-    }
-    return map == maps.drawn_views.size();
+    maps.valid = true;
 }
 
 }  // namespace blush

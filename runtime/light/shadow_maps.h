@@ -1,34 +1,50 @@
 #pragma once
-/// Shadow maps of a character: one depth texture, the lights' maps side by side, kept while nothing moves.
+/// Shadow maps of a scene: one depth texture of square tiles, one for each light of each character that it reaches,
+/// kept while nothing moves and shared by all views.
 
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 
 namespace blush {
 
 struct ShadowMaps {
+    /// The map of one light for one character.
+    struct Map {
+        std::uint32_t character = 0;  ///< index in the frame
+        std::uint32_t light = 0;      ///< of FrameState::lights
+        ShadowPlace place;
+        ShadowTile tile;
+    };
     gl::Program program;
     gl::Texture depth;
     gl::Sampler nearest;
     gl::Framebuffer framebuffer;
-    std::uint32_t side_texels = 0, count = 0;
+    std::uint32_t width = 0, height = 0;  ///< of `depth`, texels
+    std::vector<Map> maps;                ///< of this frame
 
-    // What the maps were drawn from.
+    // What the maps that stand were drawn from.
     bool valid = false;
-    std::vector<glm::mat4> drawn_views, drawn_nodes, drawn_joints;
-    std::vector<ActiveTarget> drawn_active;
-    EffectSettings drawn_settings;
+    std::vector<ShadowPlace> drawn_places;
+    std::vector<Stance> drawn_stances;
+    std::vector<const CharacterState*> drawn_characters;
+    std::vector<EffectSettings> drawn_settings;  ///< of the scene and, then, of the characters
 };
 
-/// Side of a light's map, as the settings want it.
-std::uint32_t shadow_map_side(const CharacterState& state);
+/// Texels that all maps of a scene have together, at most, as long as each has 64 of a side: sixteen of 1024 x 1024.
+inline constexpr std::uint64_t most_shadow_texels = std::uint64_t{16} << 20;
 
-/// Finds which lights get a map and where it looks; before the needs are found.
-void place_shadow_maps(CharacterState& state);
+/// Finds which lights get a map for which character, where each looks and where it stands in the texture, and writes
+/// the characters' lights; before the needs are found.
+void place_shadow_maps(FrameState& frame);
 
-/// Lights of this frame that have a map. Known once they are placed.
-std::uint32_t shadow_light_count(const CharacterState& state);
+/// Whether `caster` may stand between a light and what its map for `receiver` shows, itself included. nearer: by how
+/// much it is nearer to the light than the receiver's sphere, world units.
+bool casts_into(const LightSource& light, const CharacterState& caster, const CharacterState& receiver,
+                double* nearer = nullptr);
 
 /// Whether the maps that stand are what would be drawn now.
-bool shadow_maps_current(const CharacterState& state);
+bool shadow_maps_current(const FrameState& frame);
+
+/// Remembers that they were drawn.
+void keep_shadow_maps(FrameState& frame);
 
 }  // namespace blush

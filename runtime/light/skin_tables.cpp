@@ -18,10 +18,10 @@ gl::Texture make_table(GLsizei width, GLsizei height, GLenum internal, GLenum fo
 
 }  // namespace
 
-const SkinTables& skin_tables(CharacterState& state) {
-    auto& tables = state.own<SkinTables>();
+const SkinTables& skin_tables(FrameState& frame) {
+    auto& tables = frame.shared_own<SkinTables>();
     if (!tables.beckmann) {
-        // The same for every character of the process: the numbers are computed once.
+        // The numbers are computed once in a process.
         static const std::vector<float> beckmann = beckmann_table(BLUSH_BECKMANN_TABLE_SIDE);
         static const std::vector<float> albedo =
             specular_albedo_table(BLUSH_SPECULAR_ALBEDO_COLUMNS, BLUSH_SPECULAR_ALBEDO_ROWS);

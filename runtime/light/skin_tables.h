@@ -1,7 +1,7 @@
 #pragma once
 /// The tables that shading skin reads, as textures; made when first asked for.
 
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 
 namespace blush {
 
@@ -9,6 +9,6 @@ struct SkinTables {
     gl::Texture beckmann, specular_albedo;  ///< rig/light/skin_reflectance.h
 };
 
-const SkinTables& skin_tables(CharacterState& state);
+const SkinTables& skin_tables(FrameState& frame);
 
 }  // namespace blush

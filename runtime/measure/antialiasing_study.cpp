@@ -1,4 +1,5 @@
 #include "runtime/measure/antialiasing_study.h"
+#include "runtime/measure/portrait.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +23,11 @@ struct Studied {
     Device device;
     Face face;
     Offscreen offscreen;
-    std::vector<std::optional<Character>> characters;  // of each mode, made when first run
+    std::vector<std::optional<Portrait>> characters;  // of each mode, made when first run
     Image reference;
 
-    Character* make() {
-        Result<Character> made = Character::create(device, face);
+    Portrait* make() {
+        Result<Portrait> made = Portrait::create(device, face);
         if (!made) return nullptr;
         // A dozen of targets: a usual frame.
         const std::size_t active = std::min<std::size_t>(12, face.targets.size());
@@ -34,13 +35,13 @@ struct Studied {
         scratch.emplace(*std::move(made));
         return &*scratch;
     }
-    View view(Character& character) const {
-        View view = offscreen.view();
+    ViewFrame view(Portrait& character) const {
+        ViewFrame view = offscreen.view();
         view.camera = character.framing(1).camera(1);
         return view;
     }
-    void draw(Character& character, int frames) const {
-        View frame = view(character);
+    void draw(Portrait& character, int frames) const {
+        ViewFrame frame = view(character);
         frame.cut = true;
         for (int f = 0; f < frames; ++f) {
             character.draw(frame);
@@ -50,7 +51,7 @@ struct Studied {
     }
     void find_reference() {
         if (!reference.bytes.empty()) return;
-        Character* character = make();
+        Portrait* character = make();
         if (character == nullptr || !character->set("antialiasing.mode", "supersampled") ||
             !character->set("supersampling.factor", "8")) {
             return;
@@ -59,7 +60,7 @@ struct Studied {
         reference = offscreen.read();
     }
 
-    std::optional<Character> scratch;
+    std::optional<Portrait> scratch;
 };
 
 /// Of display values, of 255: the mean over all pixels, and the worst. A difference of one is left out: means of
@@ -96,7 +97,7 @@ std::vector<Study> antialiasing_studies(const Device& device, const Face& face, 
     for (std::size_t m = 0; m < modes.size(); ++m) {
         const StudiedMode mode = modes[m];
         const auto draw = [kept, m, mode] {
-            std::optional<Character>& character = kept->characters[m];
+            std::optional<Portrait>& character = kept->characters[m];
             if (!character) {
                 if (kept->make() == nullptr) return;
                 character = std::exchange(kept->scratch, std::nullopt);

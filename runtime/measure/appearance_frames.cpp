@@ -1,4 +1,5 @@
 #include "runtime/measure/appearance_frames.h"
+#include "runtime/measure/portrait.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 #include "runtime/appearance/appearance_gpu.h"
 #include "runtime/appearance/signed_texture.h"
 #include "runtime/files/appearance_file.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/offscreen.h"
 
 namespace blush {
@@ -50,9 +51,9 @@ std::int32_t add_image(Face& face, std::uint32_t width, std::uint32_t height, Te
 }
 
 struct Drawn {
-    Character character;
+    Portrait character;
     Offscreen offscreen;
-    View view;
+    ViewFrame view;
 
     void draw() {
         character.draw(view);
@@ -78,7 +79,7 @@ struct Setup {
 
 std::shared_ptr<Drawn> make_drawn(const Setup& setup, Face face, std::string_view setting, std::string_view value) {
     constexpr std::uint32_t side_pixels = 192;
-    Result<Character> character = Character::create(setup.device, std::move(face));
+    Result<Portrait> character = Portrait::create(setup.device, std::move(face));
     Result<Offscreen> offscreen = Offscreen::create(setup.device, side_pixels, side_pixels, Output::display_srgb);
     if (!character || !offscreen) return nullptr;
     character->set_appearance(setup.appearance);
@@ -243,10 +244,11 @@ std::vector<Study> wrinkle_frame_study(const Device& device, const Face& face, d
     if (!plain) return {};
     plain->draw();
     CharacterState& state = plain->character.state();
-    const std::vector<float> weights = zone_weights_of(state);
-    const Face start = study_face(face, state.skin.material);
+    std::vector<float> weights(setup.appearance.wrinkles->zones.size());
+    zone_weights_of(state, weights);
+    const Face start = study_face(face, state.facts_of_face.skin.material);
     const std::optional<Face> twin =
-        face_with_wrinkles(start, state.skin.material, *setup.appearance.wrinkles, weights);
+        face_with_wrinkles(start, state.facts_of_face.skin.material, *setup.appearance.wrinkles, weights);
     if (!twin) return {};
     const std::shared_ptr<Drawn> reference = make_drawn(setup, *twin, "wrinkles.shown", "no");
     if (!reference) return {};
@@ -267,10 +269,10 @@ std::vector<Study> blood_frame_study(const Device& device, const Face& face, dou
     if (!plain) return {};
     plain->draw();
     const CharacterState& state = plain->character.state();
-    const Face start = study_face(face, state.skin.material);
+    const Face start = study_face(face, state.facts_of_face.skin.material);
     const std::optional<Face> twin =
-        face_with_blood(start, state.skin.material, *setup.appearance.pigments, state.rig.hemoglobin_maps(),
-                        state.pose.hemoglobin, state.pose.hemoglobin_factor);
+        face_with_blood(start, state.facts_of_face.skin.material, *setup.appearance.pigments,
+                        state.rig.hemoglobin_maps(), state.pose.hemoglobin, state.pose.hemoglobin_factor);
     if (!twin) return {};
     const std::shared_ptr<Drawn> reference = make_drawn(setup, *twin, "blood.shown", "no");
     if (!reference) return {};

@@ -1,4 +1,5 @@
 #include "runtime/measure/appearance_probe.h"
+#include "runtime/measure/portrait.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,10 +51,11 @@ std::shared_ptr<AppearanceProbe> AppearanceProbe::create(const Device& device, c
 
 std::shared_ptr<AppearanceProbe> AppearanceProbe::create(const Device& device, const Face& face,
                                                          FaceAppearance appearance) {
-    Result<Character> character = Character::create(device, face);
+    Result<Portrait> character = Portrait::create(device, face);
     if (!character) return nullptr;
     character->set_appearance(std::move(appearance));
     std::shared_ptr<AppearanceProbe> probe(new AppearanceProbe(*std::move(character)));
+    make_common_passes(probe->character_.frame());
     const auto program = [](std::vector<std::string_view> defines) {
         Result<gl::Program> made =
             gl::make_program({"screen.vert", "measure/appearance_probe.frag", std::move(defines)});
@@ -74,7 +76,7 @@ void AppearanceProbe::draw(const gl::Program& program) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     glViewport(0, 0, side, side);
     glUseProgram(program.name());
-    glBindVertexArray(state().no_attributes.name());
+    glBindVertexArray(character_.frame().common->no_attributes.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glFinish();
 }
@@ -100,7 +102,7 @@ std::vector<glm::vec3> AppearanceProbe::normals(float weight) {
 }
 
 std::vector<glm::dvec3> AppearanceProbe::exact_normals(float weight) {
-    const WrinkleSet& set = *state().appearance.wrinkles;
+    const WrinkleSet& set = *state().asset.appearance().wrinkles;
     std::vector<glm::dvec3> result;
     for (std::size_t i = 0; i < std::size_t{side} * side; ++i) {
         const glm::dvec2 uv = set.part.within(uv_of(i));
@@ -136,7 +138,7 @@ void AppearanceProbe::draw_colors(std::string_view control) {
         return;
     }
     state().pose = pose_of(control);
-    blend_blood(state());
+    blend_blood(character_.frame(), state());
     bind_appearance(state(), false, true);
     draw(blood_);
 }
@@ -147,7 +149,7 @@ std::vector<glm::vec3> AppearanceProbe::colors(std::string_view control) {
 }
 
 std::vector<glm::dvec3> AppearanceProbe::exact_colors(std::string_view control) {
-    const SkinPigments& pigments = *state().appearance.pigments;
+    const SkinPigments& pigments = *state().asset.appearance().pigments;
     const Pose pose = pose_of(control);
     const SkinColourTable table;
     const ScalarMap melanin = resized(pigments.maps.melanin, side, side),

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "runtime/appearance/appearance_gpu.h"
-#include "runtime/character.h"
 #include "runtime/frame/effect.h"
+#include "runtime/measure/portrait.h"
 
 namespace blush {
 
@@ -32,16 +32,16 @@ public:
     /// CIEDE2000 on the typical colour of the skin; with `flushed` false, of leaving blood out.
     Variant::Error color_error(std::string_view control, bool flushed = true);
 
-    Character& character() { return character_; }
+    Portrait& character() { return character_; }
     CharacterState& state() { return character_.state(); }
 
 private:
-    explicit AppearanceProbe(Character character) : character_(std::move(character)) {}
+    explicit AppearanceProbe(Portrait character) : character_(std::move(character)) {}
     void draw(const gl::Program& program);
     std::vector<glm::vec3> read() const;
     Pose pose_of(std::string_view control);
 
-    Character character_;
+    Portrait character_;
     gl::Program derivatives_, differences_, blood_, nothing_;
     gl::Texture target_;
     gl::Framebuffer framebuffer_;

@@ -1,4 +1,5 @@
 #include "runtime/measure/camera_studies.h"
+#include "runtime/measure/portrait.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,7 @@
 #include "rig/camera/depth_of_field.h"
 #include "rig/camera/exposure.h"
 #include "rig/camera/film_grain.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/offscreen.h"
 
 namespace blush {
@@ -24,9 +25,9 @@ struct Setup {
 
 /// A face, a picture of it, and what settings make of it.
 struct Shown {
-    Character character;
+    Portrait character;
     Offscreen offscreen;
-    View view;
+    ViewFrame view;
 
     void draw() {
         character.draw(view);
@@ -53,7 +54,7 @@ struct Shown {
 
 std::shared_ptr<Shown> show(const Device& device, const Face& face, double millimetres_a_unit, Output output,
                             const std::vector<Setup>& settings) {
-    Result<Character> character = Character::create(device, face);
+    Result<Portrait> character = Portrait::create(device, face);
     Result<Offscreen> offscreen = Offscreen::create(device, side_pixels, side_pixels, output);
     if (!character || !offscreen) return nullptr;
     if (!character->set("scattering.millimetres_a_unit", std::to_string(millimetres_a_unit))) return nullptr;
@@ -131,7 +132,7 @@ std::vector<Study> exposure_studies(const Device& device, const Face& face, doub
         variant.run = [shown] { shown->draw(); };
         variant.error = [shown, before, how] {
             shown->draw();
-            const CharacterState& state = shown->character.state();
+            const FrameState& state = shown->character.frame();
             float found = 0;
             glGetTextureImage(state.graph[state.resources.log2_exposure].handle, 0, GL_RED, GL_FLOAT, sizeof(found),
                               &found);
@@ -190,12 +191,12 @@ std::vector<Study> depth_of_field_studies(const Device& device, const Face& face
     const CharacterState& state = sharp->character.state();
     const Camera camera = sharp->view.camera;
     const double focus_mm =
-        static_cast<double>(-(camera.view_from_world * glm::vec4(state.bounds.centre(), 1)).z) * millimetres_a_unit;
+        -(camera.view_from_world * glm::dvec4(state.facts_of_face.bounds.centre(), 1)).z * millimetres_a_unit;
     constexpr double f_number = 1.4, sensor_mm = 24;
     const double focal_length_mm = 0.5 * sensor_mm * static_cast<double>(camera.clip_from_view[1][1]);
     const double lens_radius = 0.5 * focal_length_mm / f_number / millimetres_a_unit;
     sharp->draw();
-    const Lighting fixed = state.portrait;  // the lights of a portrait would follow the camera
+    const Lighting fixed = sharp->character.frame().portrait;  // the lights of a portrait would follow the camera
     sharp->view.lighting = &fixed;
     Picture sum(side_pixels, side_pixels, glm::dvec3(0));
     const std::vector<glm::vec2> places = blur_taps(quick ? 16 : 64);
@@ -203,7 +204,8 @@ std::vector<Study> depth_of_field_studies(const Device& device, const Face& face
         // The camera moves over the lens; its projection is sheared so that the focal plane stays where it is.
         const glm::vec2 off = place * static_cast<float>(lens_radius);
         const float focus = static_cast<float>(focus_mm / millimetres_a_unit);
-        sharp->view.camera.view_from_world = glm::translate(glm::mat4(1), glm::vec3(-off, 0)) * camera.view_from_world;
+        sharp->view.camera.view_from_world =
+            glm::translate(glm::dmat4(1), glm::dvec3(-off, 0)) * camera.view_from_world;
         sharp->view.camera.clip_from_view = camera.clip_from_view;
         sharp->view.camera.clip_from_view[2][0] -= camera.clip_from_view[0][0] * off.x / focus;
         sharp->view.camera.clip_from_view[2][1] -= camera.clip_from_view[1][1] * off.y / focus;

@@ -1,4 +1,5 @@
 #include "runtime/measure/frame_study.h"
+#include "runtime/measure/portrait.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,9 @@ namespace blush {
 namespace {
 
 struct Drawn {
-    Character character;
+    Portrait character;
     Offscreen offscreen;
-    View view;
+    ViewFrame view;
 
     void draw() {
         character.draw(view);
@@ -23,7 +24,7 @@ struct Drawn {
 std::shared_ptr<Drawn> make_drawn(const Device& device, const Face& face, double millimetres_a_unit,
                                   const FrameStudy& what, const std::string& value) {
     constexpr std::uint32_t side_pixels = 192;
-    Result<Character> character = Character::create(device, face);
+    Result<Portrait> character = Portrait::create(device, face);
     Result<Offscreen> offscreen = Offscreen::create(device, side_pixels, side_pixels, Output::linear_hdr);
     if (!character || !offscreen) return nullptr;
     if (!character->set("scattering.millimetres_a_unit", std::to_string(millimetres_a_unit))) return nullptr;
@@ -75,7 +76,7 @@ std::vector<Study> frame_study(const Device& device, const Face& face, double mi
         variant.label = what.setting + "=" + what.values[v];
         variant.is_default = v == what.default_value;
         drawn->draw();
-        variant.work = std::to_string(drawn->character.state().report.triangles_drawn) + " triangles at first";
+        variant.work = std::to_string(drawn->character.report().triangles_drawn) + " triangles at first";
         variant.run = [drawn] { drawn->draw(); };
         variant.error = [drawn, picture] {
             drawn->draw();

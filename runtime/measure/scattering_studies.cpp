@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "runtime/effects/scattering.h"
+#include "runtime/light/scatter_projection.h"
+#include "runtime/measure/portrait.h"
 #include "runtime/offscreen.h"
 
 namespace blush {
@@ -14,10 +16,10 @@ constexpr std::uint32_t side_pixels = 160, every = 4;
 /// As far as the exact convolution reaches: 99.8 % of the six Gaussians' red light.
 constexpr double reach_mm = 9;
 
-struct Scene {
-    Character character;
+struct StudiedSkin {
+    Portrait character;
     Offscreen offscreen;
-    View view;
+    ViewFrame view;
     SkinImage image;                // what shading left, read back
     std::vector<glm::dvec3> exact;  // of a variant's own profile: six Gaussians
     gl::Texture light, albedo, depth, scene, first, second, third, stencil;
@@ -35,7 +37,7 @@ gl::Texture texture(GLenum format) {
 }
 
 /// Keeps what the scattering of a frame starts from. The passes read textures that the frame gives back, so copies.
-void capture(Scene& scene) {
+void capture(StudiedSkin& scene) {
     CharacterState& state = scene.character.state();
     scene.light = texture(GL_RGBA16F);
     scene.albedo = texture(GL_RGBA16F);
@@ -45,9 +47,9 @@ void capture(Scene& scene) {
     scene.second = texture(GL_RGBA16F);
     scene.third = texture(GL_RGBA16F);
     scene.stencil = texture(GL_STENCIL_INDEX8);
-    state.own<ScatterCapture>() = {scene.light.name(), scene.albedo.name(), scene.depth.name()};
+    scene.character.frame().own<ScatterCapture>() = {scene.light.name(), scene.albedo.name(), scene.depth.name()};
     scene.character.draw(scene.view);
-    state.own<ScatterCapture>() = {};
+    scene.character.frame().own<ScatterCapture>() = {};
     const std::size_t pixels = std::size_t{side_pixels} * side_pixels;
     std::vector<glm::vec4> light(pixels);
     std::vector<float> depth(pixels);
@@ -62,21 +64,21 @@ void capture(Scene& scene) {
     scene.input.albedo = scene.albedo.name();
     scene.input.depth = scene.depth.name();
     scene.input.width = scene.input.height = side_pixels;
-    scene.input.projection = scatter_projection(scene.view, state.millimetres_a_unit);
-    scene.input.follow_mm = scatter_follow_mm(state);
+    scene.input.projection = scatter_projection(scene.character.frame(), state.millimetres_a_unit);
+    scene.input.follow_mm = scatter_follow_mm(scene.character.frame(), state);
     scene.exact = scatter_exact(scene.image, skin_six_gaussians(), scene.input.projection, scene.input.follow_mm,
                                 reach_mm, every);
 }
 
 /// A close view: the face's skin fills the picture, so that a millimetre has several pixels.
-std::shared_ptr<Scene> make_scene(const Device& device, const Face& face, double millimetres_a_unit) {
-    Result<Character> character = Character::create(device, face);
+std::shared_ptr<StudiedSkin> make_scene(const Device& device, const Face& face, double millimetres_a_unit) {
+    Result<Portrait> character = Portrait::create(device, face);
     Result<Offscreen> offscreen = Offscreen::create(device, side_pixels, side_pixels, Output::linear_hdr);
     if (!character || !offscreen) return nullptr;
     if (Status set = character->set("scattering.millimetres_a_unit", std::to_string(millimetres_a_unit)); !set)
         return nullptr;
-    auto scene = std::make_shared<Scene>(
-        Scene{*std::move(character), *std::move(offscreen), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+    auto scene = std::make_shared<StudiedSkin>(
+        StudiedSkin{*std::move(character), *std::move(offscreen), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
     scene->view = scene->offscreen.view();
     OrbitCamera orbit = scene->character.framing(1);
     orbit.distance *= 0.3F;
@@ -87,7 +89,7 @@ std::shared_ptr<Scene> make_scene(const Device& device, const Face& face, double
 }
 
 /// Error of the light that leaves the skin, over all channels, in hundredths of the mean light.
-Variant::Error error_of(Scene& scene) {
+Variant::Error error_of(StudiedSkin& scene) {
     std::vector<glm::vec4> out(scene.exact.size());
     glGetTextureImage(scene.scene.name(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(out.size() * sizeof(out[0])),
                       out.data());
@@ -122,14 +124,14 @@ Variant::Error error_of(Scene& scene) {
     return error;
 }
 
-void clear(const Scene& scene) { glClearTexImage(scene.scene.name(), 0, GL_RGBA, GL_FLOAT, nullptr); }
+void clear(const StudiedSkin& scene) { glClearTexImage(scene.scene.name(), 0, GL_RGBA, GL_FLOAT, nullptr); }
 
 }  // namespace
 
 std::vector<Study> scattering_studies(const Device& device, const Face& face, double millimetres_a_unit,
                                       bool /*quick*/) {
-    std::shared_ptr<Scene> scene = make_scene(device, face, millimetres_a_unit);
-    if (!scene || scene->character.state().skin.parts.empty()) return {};
+    std::shared_ptr<StudiedSkin> scene = make_scene(device, face, millimetres_a_unit);
+    if (!scene || scene->character.state().facts_of_face.skin.parts.empty()) return {};
     std::size_t skin = 0;
     for (const glm::dvec4& light : scene->image.light) skin += light.a > 0 ? 1U : 0U;
     const double pixels_a_mm = scene->character.state().skin.pixels_a_mm;
@@ -142,13 +144,13 @@ std::vector<Study> scattering_studies(const Device& device, const Face& face, do
         {},
         scene};
     const auto add = [&](std::string label, ScatterMethod method, std::uint32_t samples,
-                         std::function<void(Scene&)> draw) {
+                         std::function<void(StudiedSkin&)> draw) {
         Variant variant;
         variant.label = std::move(label);
         variant.is_default = variant.label == "scattering.samples=17";
         variant.work = std::to_string(ScatterPasses::fetches_a_pixel(method, samples, scene->input.follow_mm > 0)) +
                        " fetches a pixel of skin";
-        Scene* raw = scene.get();
+        StudiedSkin* raw = scene.get();
         variant.run = [raw, draw] {
             clear(*raw);
             draw(*raw);
@@ -165,22 +167,22 @@ std::vector<Study> scattering_studies(const Device& device, const Face& face, do
     for (const std::uint32_t samples : {9U, 17U, 25U, 33U}) {
         const std::vector<KernelTap> taps = preintegrated_kernel(skin_six_gaussians(), 1, samples);
         add("scattering.samples=" + std::to_string(samples), ScatterMethod::separable, samples,
-            [taps, scratch](Scene& s) { s.passes.separable(s.input, taps, scratch, s.scene.name()); });
+            [taps, scratch](StudiedSkin& s) { s.passes.separable(s.input, taps, scratch, s.scene.name()); });
     }
     const std::vector<KernelTap> fitted = separable_kernel(scatter_kernel_shape(scene->character.state()), 17);
     add("scattering.kernel=fitted", ScatterMethod::separable, 17,
-        [fitted, scratch](Scene& s) { s.passes.separable(s.input, fitted, scratch, s.scene.name()); });
+        [fitted, scratch](StudiedSkin& s) { s.passes.separable(s.input, fitted, scratch, s.scene.name()); });
     for (const ScatterMethod method : {ScatterMethod::gaussians4, ScatterMethod::gaussians6}) {
         const bool four = method == ScatterMethod::gaussians4;
         add(four ? "scattering.method=gaussians4" : "scattering.method=gaussians6", method, 0,
-            [four, scratch](Scene& s) {
+            [four, scratch](StudiedSkin& s) {
                 s.passes.gaussians(s.input, four ? skin_four_gaussians() : skin_six_gaussians(), scratch,
                                    s.scene.name());
             });
     }
     const JitteredKernel jittered = jittered_kernel(skin_six_gaussians());
     add("scattering.method=jittered", ScatterMethod::jittered, 0,
-        [jittered](Scene& s) { s.passes.jittered(s.input, jittered, s.scene.name()); });
+        [jittered](StudiedSkin& s) { s.passes.jittered(s.input, jittered, s.scene.name()); });
     return {std::move(study)};
 }
 

@@ -1,4 +1,5 @@
 #include "runtime/measure/sphere_study.h"
+#include "runtime/measure/portrait.h"
 
 #include <cmath>
 #include <numbers>
@@ -55,10 +56,10 @@ Face sphere() {
 }
 
 struct Drawn {
-    Character character;
+    Portrait character;
     Offscreen offscreen;
     Lighting lighting;
-    View view;
+    ViewFrame view;
     std::function<glm::dvec3(glm::dvec3)> exact;
 
     void draw() {
@@ -69,7 +70,7 @@ struct Drawn {
 };
 
 std::shared_ptr<Drawn> make_drawn(const Device& device, const Lighting& lighting, const SphereVariant& variant) {
-    Result<Character> character = Character::create(device, sphere());
+    Result<Portrait> character = Portrait::create(device, sphere());
     Result<Offscreen> offscreen = Offscreen::create(device, side_pixels, side_pixels, Output::linear_hdr);
     if (!character || !offscreen) return nullptr;
     for (const auto& [setting, value] : {std::pair<std::string, std::string>("scattering.method", "off"),
@@ -85,8 +86,8 @@ std::shared_ptr<Drawn> make_drawn(const Device& device, const Lighting& lighting
     // From so far that every pixel is seen along -Z.
     constexpr float far_away = 1e4F;
     constexpr auto half = static_cast<float>(half_extent);
-    drawn->view.camera.view_from_world = glm::lookAt(glm::vec3(0, 0, far_away), glm::vec3(0), glm::vec3(0, 1, 0));
-    drawn->view.camera.clip_from_view = glm::ortho(-half, half, -half, half, far_away - 2, far_away + 2);
+    drawn->view.camera.view_from_world = glm::lookAtRH(glm::vec3(0, 0, far_away), glm::vec3(0), glm::vec3(0, 1, 0));
+    drawn->view.camera.clip_from_view = glm::orthoRH_NO(-half, half, -half, half, far_away - 2, far_away + 2);
     return drawn;
 }
 

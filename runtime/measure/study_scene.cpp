@@ -1,11 +1,12 @@
 #include "runtime/measure/study_scene.h"
+#include "runtime/measure/portrait.h"
 
 #include <algorithm>
 
 namespace blush {
 
 std::shared_ptr<StudyScene> make_study_scene(const Device& device, const Face& face, std::size_t active_count) {
-    Result<Character> character = Character::create(device, face);
+    Result<Portrait> character = Portrait::create(device, face);
     if (!character) return nullptr;
     auto scene = std::make_shared<StudyScene>(StudyScene{*std::move(character), {}, {}});
     std::vector<float> weights(face.targets.size(), 0);

@@ -7,16 +7,17 @@
 #include "rig/deform/deform_exact.h"
 #include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
+#include "runtime/measure/portrait.h"
 
 namespace blush {
 
 struct StudyScene {
-    Character character;
+    Portrait character;
     ExactSurface exact;
     std::vector<ActiveTarget> active;
 
-    StreamOut& stream_out() { return *character.state().stream_out; }
-    Character::Surface read() { return character.read_deformed(); }
+    StreamOut& stream_out() { return character.state().stream_out; }
+    Scene::Surface read() { return character.read_deformed(); }
 };
 
 /// The first `active_count` targets at weights that differ (0.3 to 0.9). Nothing when the face does not fit the device.

@@ -6,11 +6,10 @@ layout(location = BLUSH_LAST_POSITION_ATTRIBUTE) in vec3 last_position;
 layout(location = BLUSH_UV0_ATTRIBUTE) in vec2 uv0;
 layout(location = BLUSH_UV1_ATTRIBUTE) in vec2 uv1;
 
-layout(location = 0) uniform mat4 sampled_clip_from_world;  // moved to where this picture is sampled
-layout(location = 1) uniform mat4 view_clip_from_world;     // not moved: what stands still has no velocity
-layout(location = 2) uniform mat4 last_clip_from_world;
-layout(location = 3) uniform mat4 mesh_to_world;
-layout(location = 4) uniform mat4 last_mesh_to_world;
+// Composed in double precision.
+layout(location = 0) uniform mat4 sampled_clip_from_mesh;  // moved to where this picture is sampled
+layout(location = 1) uniform mat4 clip_from_mesh;          // not moved: what stands still has no velocity
+layout(location = 2) uniform mat4 last_clip_from_mesh;
 
 out vec4 clip;
 out vec4 last_clip;
@@ -19,12 +18,11 @@ out vec2 base_color_uv;
 #endif
 
 void main() {
-    vec4 world = mesh_to_world * vec4(position, 1.0);
-    clip = view_clip_from_world * world;
-    last_clip = last_clip_from_world * (last_mesh_to_world * vec4(last_position, 1.0));
+    clip = clip_from_mesh * vec4(position, 1.0);
+    last_clip = last_clip_from_mesh * vec4(last_position, 1.0);
 #ifdef ALPHA_TEST
     vec3 uv = vec3(uv_sets.x == 1 ? uv1 : uv0, 1.0);
     base_color_uv = vec2(dot(uv_rows[0].xyz, uv), dot(uv_rows[1].xyz, uv));
 #endif
-    gl_Position = sampled_clip_from_world * world;
+    gl_Position = sampled_clip_from_mesh * vec4(position, 1.0);
 }

@@ -14,18 +14,20 @@ vec3 skin_color(vec2 coordinate) {
     return texture(skin_color_table, (coordinate * (blood.z - 1.0) + 0.5) / blood.z).rgb;
 }
 
-vec3 flushed(vec3 base, vec2 uv) {
-    vec3 pigment = texture(pigment_map, uv).xyz;
+vec3 flushed(vec3 base, Uv uv) {
+    vec3 pigment = sampled(pigment_map, uv).xyz;
     if (pigment.z == 0.0) return base;  // not skin
-    vec2 change = texture(blood_change_map, uv).xy;
+    vec2 change = texture(blood_change_map, uv.at).xy;
     float at_rest = blood.y * pigment.y * pigment.y * pigment.y;
     float changed = clamp(blood.x * (change.x * at_rest + change.y), 0.0, blood.y);
     changed = at_rest + pigment.z * (changed - at_rest);
     vec2 coordinate = vec2(pigment.x, pow(changed / blood.y, 1.0 / 3.0));
 #ifdef PIGMENT_COLOR
-    return mix(base, texture(residual_map, uv).rgb * skin_color(coordinate), pigment.z);
+    return mix(base, sampled(residual_map, uv).rgb * skin_color(coordinate), pigment.z);
 #else
     if (changed == at_rest) return base;  // to the bit
     return base * skin_color(coordinate) / max(skin_color(pigment.xy), vec3(1e-4));
 #endif
 }
+
+void blood_colour(Interpolants at, inout vec3 color) { color = flushed(color, at.layout_uv); }

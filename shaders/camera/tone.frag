@@ -1,4 +1,4 @@
-// From linear radiance to display: exposure, the filmic curve and the sRGB transfer function.
+// From linear radiance, premultiplied with opacity, to display values that are premultiplied too: exposure, the filmic curve and the sRGB transfer function.
 #include "shared.glsl"
 #include "srgb.glsl"
 
@@ -21,10 +21,13 @@ const float exposure_bias = 2.0;
 
 void main() {
     vec4 scene = texelFetch(scene_color, ivec2(gl_FragCoord.xy), 0);
+    // The curve is for colours as they are seen, not as they are weighed. What has no opacity adds its light.
+    bool translucent = scene.a > 0.0 && scene.a < 1.0;
+    if (translucent) scene.rgb /= scene.a;
     float factor = exposure_bias * exposure;
     if (metered) factor *= exp2(texelFetch(log2_metered, ivec2(0), 0).r);
     // What is not a number becomes black; the curve rises to its end far beyond what is white.
     vec3 radiance = mix(vec3(0.0), min(factor * scene.rgb, vec3(1e6)), greaterThan(scene.rgb, vec3(0.0)));
     vec3 mapped = filmic(radiance) / filmic(vec3(white));
-    display_srgb = vec4(srgb_from_linear(mapped), scene.a);
+    display_srgb = vec4(srgb_from_linear(mapped) * (translucent ? scene.a : 1.0), scene.a);
 }

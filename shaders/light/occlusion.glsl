@@ -5,7 +5,7 @@
 // has in their band, so that those of an open vertex are the basis functions of its normal.
 layout(std430, binding = BLUSH_OCCLUSION_BINDING) readonly buffer OcclusionCoefficients { vec4 transfer[]; };
 
-// Radiance that white reflects, by nine coefficients; environment_ambient() before it is kept above 0.
+// Radiance that white reflects, by nine coefficients; environment_white() before it is kept above 0.
 vec3 gathered(vec4 h0, vec4 h1, float h8) {
     return h0.x * ambient_sh[0].rgb + h0.y * ambient_sh[1].rgb + h0.z * ambient_sh[2].rgb + h0.w * ambient_sh[3].rgb +
            h1.x * ambient_sh[4].rgb + h1.y * ambient_sh[5].rgb + h1.z * ambient_sh[6].rgb + h1.w * ambient_sh[7].rgb +

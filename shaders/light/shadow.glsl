@@ -1,4 +1,4 @@
-// Shadow maps: all lights' maps stand side by side in one depth texture. Percentage-closer filtering of 3 x 3 texels
+// Shadow maps: the maps of all lights and characters are tiles of one depth texture. Percentage-closer filtering of 3 x 3 texels
 // with bilinear weights (chappuis-2011, 2.4, filters 4 x 4 at equal weights, which steps where it crosses a texel).
 // Twin: the tests' own ray caster.
 
@@ -18,8 +18,8 @@ struct InMap {
     vec4 here, along_normal;  // clip space of the map; along_normal: of one world unit
 };
 
-InMap in_map(Light light, vec3 vertex_normal) {
-    return InMap(light.shadow_from_world * vec4(position_world, 1.0), light.shadow_from_world * vec4(vertex_normal, 0.0));
+InMap in_map(Light light, Surface s) {
+    return InMap(light.shadow_from_world * vec4(s.position, 1.0), light.shadow_from_world * vec4(s.vertex_normal, 0.0));
 }
 
 // xy: place in the light's map, 0 to 1; z: its depth there. w: 0 outside of the map.
@@ -31,9 +31,9 @@ vec4 shadow_place(vec4 clip) {
 }
 
 vec2 shadow_texel(Light light, vec2 place) {
-    float side = float(textureSize(shadow_map, 0).y);
+    float side = light.shadow_tile.z;
     // The outermost texels are nobody's neighbours in another light's map.
-    return vec2(light.shadow.x * side, 0.0) + clamp(place * side, vec2(2.0), vec2(side - 2.0));
+    return light.shadow_tile.xy + clamp(place * side, vec2(2.0), vec2(side - 2.0));
 }
 
 // Share of 2 x 2 texels around a place (texels) that light gets beyond `distance_here` in, with bilinear weights.
@@ -49,8 +49,7 @@ float lit_texels(Light light, vec2 at, float distance_here, vec2 texel_uv) {
 // it says how wide the shadow's edge is here. Wide filters follow the surface's own plane, or it would hide itself.
 // `sharp`: what the light of no size gives.
 float soft_share(Light light, vec2 at, float distance_here, float texel, vec3 normal, vec3 l, float sharp) {
-    float side = float(textureSize(shadow_map, 0).y), left = light.shadow.x * side;
-    vec2 low = vec2(left + 1.5, 1.5), high = vec2(left + side - 1.5, side - 1.5);
+    vec2 low = light.shadow_tile.xy + 1.5, high = light.shadow_tile.xy + (light.shadow_tile.z - 1.5);
     vec2 texel_uv = 1.0 / vec2(textureSize(shadow_map, 0));
     mat4 m = light.shadow_from_world;
     vec3 right = normalize(vec3(m[0].x, m[1].x, m[2].x)), up = normalize(vec3(m[0].y, m[1].y, m[2].y));
@@ -90,15 +89,15 @@ float soft_share(Light light, vec2 at, float distance_here, float texel, vec3 no
     return sum / float(filter_taps);
 }
 
-// `vague`: world units by which the rasteriser misplaces the pixel.
-float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l, float vague) {
+float lit_share(Light light, InMap map, Surface s, vec3 l) {
     if (light.shadow.x < 0.0) return 1.0;
     // Off the surface along its normal by the width of the filter as the surface sees it: no freckles where light
     // grazes, and no gap where it does not. A texel is wider farther from a light with a perspective.
     float texel = light.shadow.z;
-    if (light.shadow.w != 0.0) texel *= distance(position_world, light.position_world.xyz);
-    float bias = max(texel, vague);
-    float n_l = clamp(dot(vertex_normal, l), 0.0, 1.0);
+    if (light.shadow.w != 0.0) texel *= distance(s.position, light.position_world.xyz);
+    // Vertices are placed to a 256th of a pixel or so: more than a texel of a map where a head is a few pixels.
+    float bias = max(texel, s.footprint / 128.0);
+    float n_l = clamp(dot(s.vertex_normal, l), 0.0, 1.0);
     vec4 place = shadow_place(map.here + map.along_normal * (bias * (0.5 + 2.0 * sqrt(1.0 - n_l * n_l))));
     if (place.w == 0.0) return 1.0;
     // The surface's own depth less the bias, as the map stores it.
@@ -107,10 +106,8 @@ float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l, float vague)
     float here = light.shadow.w != 0.0 ? far * (distance_here - near) / (max(distance_here, 1e-9) * (far - near))
                                            : (distance_here - near) / (far - near);
     vec2 middle = shadow_texel(light, place.xy);
-#ifdef HAIR
     // What strands hide from each other is as broken up as they are: no soft edge shows.
-    return lit_texels(light, middle, distance_here, 1.0 / vec2(textureSize(shadow_map, 0)));
-#endif
+    if (s.model == model_hair) return lit_texels(light, middle, distance_here, 1.0 / vec2(textureSize(shadow_map, 0)));
     vec2 at = middle - 0.5;
     vec2 part = fract(at);
     // 4 x 4 texels by four gathers; the outer rows and columns count in part.
@@ -127,8 +124,10 @@ float lit_share(Light light, InMap map, vec3 vertex_normal, vec3 l, float vague)
         }
     }
     if (light.shadow_depth.z == 0.0) return sum / 9.0;
-    return soft_share(light, middle, distance_here, texel, vertex_normal, l, sum / 9.0);
+    return soft_share(light, middle, distance_here, texel, s.vertex_normal, l, sum / 9.0);
 }
+
+void shadows_lit(Surface s, Light light, vec3 l, inout float share) { share *= lit_share(light, in_map(light, s), s, l); }
 
 // How far the light came inside, world units, at most `most`; of a point that stands a little below the surface. Where
 // the map is empty the light met no outside of the surface: none came inside.

@@ -1,6 +1,9 @@
 // Appearance laid out flat: the wrinkled normal, or the colour that blood gives to white, over the texture. What studies
 // and tests compare with the CPU.
 #include "shared.glsl"
+#include "vectors.glsl"
+#include "draw/interpolants.glsl"
+#include "draw/relief.glsl"
 #ifdef WRINKLES
 #include "wrinkles/wrinkles.glsl"
 #endif
@@ -13,11 +16,14 @@ layout(location = 0) out vec4 result;
 
 void main() {
     result = vec4(1.0);
+    Interpolants at;
+    at.layout_uv = Uv(screen_uv, dFdx(screen_uv), dFdy(screen_uv));
 #ifdef WRINKLES
-    vec2 uv = wrinkle_uv(screen_uv);
-    result = vec4(normalize(wrinkled(vec3(0.0, 0.0, 1.0), uv, wrinkle_strength(uv))), 1.0);
+    Relief relief = Relief(vec3(0.0, 0.0, 1.0), false);
+    wrinkles_relief(at, relief);
+    result = vec4(normalize(relief.normal), 1.0);
 #endif
 #ifdef BLOOD
-    result = vec4(flushed(vec3(1.0), screen_uv), 1.0);
+    blood_colour(at, result.rgb);
 #endif
 }

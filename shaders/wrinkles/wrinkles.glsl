@@ -4,28 +4,39 @@ layout(binding = BLUSH_WRINKLE_MAP_UNIT) uniform sampler2D wrinkle_map;
 layout(binding = BLUSH_WRINKLE_MASKS_UNIT) uniform sampler2DArray wrinkle_masks;
 
 // Texture coordinates of the wrinkle maps, which may show a part of the layout.
-vec2 wrinkle_uv(vec2 layout_uv) { return layout_uv * wrinkle_part.xy + wrinkle_part.zw; }
+Uv wrinkle_uv(Uv layout_uv) {
+    return Uv(layout_uv.at * wrinkle_part.xy + wrinkle_part.zw, layout_uv.dx * wrinkle_part.xy,
+              layout_uv.dy * wrinkle_part.xy);
+}
 
-float wrinkle_strength(vec2 uv) {
+float wrinkle_strength(Uv uv) {
     float strength = 0.0;
     for (int mask = 0; mask < BLUSH_MOST_WRINKLE_MASKS; ++mask) {
         // A mask of which no zone acts is not read: the same for the whole draw.
         if (wrinkle_weights[mask] == vec4(0.0)) continue;
-        strength += dot(texture(wrinkle_masks, vec3(uv, mask)), wrinkle_weights[mask]);
+        strength += dot(texture(wrinkle_masks, vec3(uv.at, mask)), wrinkle_weights[mask]);
     }
     return strength;
 }
 
 // `base`: a tangent-space normal of any length. A normal is its partial derivatives and 1, times its z: adding
 // derivatives needs no division. Derivatives of zero leave it as it is to the bit.
-vec3 wrinkled(vec3 base, vec2 uv, float strength) {
+vec3 wrinkled(vec3 base, Uv uv, float strength) {
 #ifdef WRINKLE_DIFFERENCES
     // 8.2.1: the base is of unit length when the difference is added to it.
     float length2 = dot(base, base);
     base = length2 > 1e-12 ? base * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
-    return base + texture(wrinkle_map, uv).xyz * strength;
+    return base + sampled(wrinkle_map, uv).xyz * strength;
 #else
-    base.xy += base.z * (texture(wrinkle_map, uv).xy * (strength * wrinkle_range.x));
+    base.xy += base.z * (sampled(wrinkle_map, uv).xy * (strength * wrinkle_range.x));
     return base;
 #endif
+}
+
+void wrinkles_relief(Interpolants at, inout Relief relief) {
+    Uv uv = wrinkle_uv(at.layout_uv);
+    float strength = wrinkle_strength(uv);
+    if (strength == 0.0) return;
+    relief.normal = wrinkled(relief.normal, uv, strength);
+    relief.bent = true;
 }

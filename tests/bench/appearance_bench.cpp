@@ -24,8 +24,8 @@
 #include <epoxy/gl.h>
 
 #include "rig/head/canonical_face.h"
-#include "runtime/character.h"
 #include "runtime/files/face_file.h"
+#include "runtime/measure/portrait.h"
 #include "runtime/offscreen.h"
 
 namespace {
@@ -46,9 +46,9 @@ struct Times {
     double frame_ms = 0, shade_ms = 0;
 };
 
-struct Scene {
-    Character character;
-    View view;
+struct Pictures {
+    Portrait character;
+    ViewFrame view;
     const Offscreen& offscreen;
     bool rest;
     std::size_t frames = 0;
@@ -93,7 +93,7 @@ void print(const char* what, const std::vector<double>& without, const std::vect
         100 * quantile(added, 0.5 + reach) / base);
 }
 
-bool measure(Scene& scene, const Variant& variant, std::size_t rounds) {
+bool measure(Pictures& scene, const Variant& variant, std::size_t rounds) {
     (void)scene.character.set("wrinkles.storage", variant.storage);
     const auto without = [&] {
         scene.show(false, false);
@@ -136,13 +136,13 @@ void keep_skin(Face& face) {
         if (std::ranges::find(skin, p) == skin.end()) face.primitives[p].index_count = 0;
 }
 
-Result<Character> load(const Device& device, const char* path, bool portrait) {
+Result<Portrait> load(const Device& device, const char* path, bool portrait) {
     Result<Face> face = load_face(path);
     if (!face) return face.error();
     Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(path));
     if (!appearance) return appearance.error();
     if (!portrait) keep_skin(*face);
-    Result<Character> character = Character::create(device, *std::move(face));
+    Result<Portrait> character = Portrait::create(device, *std::move(face));
     if (!character) return character;
     character->set_appearance(*std::move(appearance));
     constexpr std::array<std::pair<const char*, const char*>, 4> alone = {{{"antialiasing.mode", "none"},
@@ -169,17 +169,17 @@ int main(int argc, char** argv) {
     const Result<Device> device = Device::headless(false);
     const Result<Offscreen> offscreen =
         device ? Offscreen::create(*device, side, side, Output::display_srgb) : Result<Offscreen>(device.error());
-    Result<Character> character = offscreen ? load(*device, argv[1], portrait) : Result<Character>(offscreen.error());
+    Result<Portrait> character = offscreen ? load(*device, argv[1], portrait) : Result<Portrait>(offscreen.error());
     if (!character) {
         std::fprintf(stderr, "bench_appearance: %s\n", character.error().message.c_str());
         return 2;
     }
-    View view = offscreen->view();
+    ViewFrame view = offscreen->view();
     view.timed = true;
     OrbitCamera camera = character->framing(1);
     if (!portrait) camera.distance *= 0.4F;
     view.camera = camera.camera(1);
-    Scene scene{*std::move(character), view, *offscreen, false};
+    Pictures scene{*std::move(character), view, *offscreen, false};
 
     bool good = true;
     for (const bool rest : {false, true}) {

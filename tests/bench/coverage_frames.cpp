@@ -81,7 +81,7 @@ Face CoverageFrames::face() const {
 }
 
 std::size_t CoverageFrames::add(const Mode& mode) {
-    drawn_.push_back({must(Character::create(device_, face())), mode.output, 1});
+    drawn_.push_back({must(Portrait::create(device_, face())), mode.output, 1});
     for (const auto& [setting, choice] : mode.settings) {
         if (const Status done = drawn_.back().character.set(setting, choice); !done) {
             std::fprintf(stderr, "%s\n", done.error().message.c_str());
@@ -93,12 +93,12 @@ std::size_t CoverageFrames::add(const Mode& mode) {
     return number;
 }
 
-View CoverageFrames::view_of(std::size_t shape, Output output, glm::dvec2 offset_pixels) const {
+ViewFrame CoverageFrames::view_of(std::size_t shape, Output output, glm::dvec2 offset_pixels) const {
     // Far away, so that every point is seen from the front: at a grazing angle even a black surface reflects.
     constexpr float half = 0.5F * coverage_side_pixels, distance = 1e4F;
     const glm::vec2 middle = corner_of(shape) + glm::vec2(half, -half) +
                              glm::vec2(static_cast<float>(offset_pixels.x), -static_cast<float>(offset_pixels.y));
-    View view = offscreens_[output == Output::display_srgb ? 0 : 1].view();
+    ViewFrame view = offscreens_[output == Output::display_srgb ? 0 : 1].view();
     view.camera.view_from_world = glm::translate(glm::mat4(1), glm::vec3(-middle, -distance));
     view.camera.clip_from_view = glm::ortho(-half, half, -half, half, 0.5F * distance, 2 * distance);
     view.background_linear = {0, 0, 0, 1};
@@ -107,7 +107,7 @@ View CoverageFrames::view_of(std::size_t shape, Output output, glm::dvec2 offset
 
 Grid<double> CoverageFrames::show(std::size_t mode, std::size_t shape, glm::dvec2 offset_pixels) {
     Drawn& drawn = drawn_[mode];
-    View view = view_of(shape, drawn.output, offset_pixels);
+    ViewFrame view = view_of(shape, drawn.output, offset_pixels);
     view.cut = true;
     const bool incomplete = drawn.character.draw(view).incomplete;
     view.cut = false;

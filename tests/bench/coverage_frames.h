@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rig/antialias/coverage.h"
-#include "runtime/character.h"
+#include "runtime/measure/portrait.h"
 #include "runtime/offscreen.h"
 
 namespace blush {
@@ -31,13 +31,13 @@ public:
 
 private:
     struct Drawn {
-        Character character;
+        Portrait character;
         Output output = Output::linear_hdr;
         double full = 1;  // light of a pixel that is all covered
     };
     Face face() const;
     glm::vec2 corner_of(std::size_t shape) const;
-    View view_of(std::size_t shape, Output output, glm::dvec2 offset_pixels) const;
+    ViewFrame view_of(std::size_t shape, Output output, glm::dvec2 offset_pixels) const;
 
     Device device_;
     std::vector<CoverageShape> shapes_;

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/character.h"
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/frame_state.h"
+#include "runtime/measure/portrait.h"
 
 namespace {
 
@@ -73,7 +73,7 @@ Target region(std::mt19937& random, std::size_t vertices, std::uint32_t moved, c
 
 struct Subject {
     std::string name;
-    Character character;
+    Portrait character;
     std::vector<std::uint32_t> active;
 
     void set_weights(std::uint32_t frame) {
@@ -84,7 +84,7 @@ struct Subject {
     double frame_ms(std::uint32_t frame) {
         const auto start = std::chrono::steady_clock::now();
         set_weights(frame);
-        deform_only(character.state());
+        deform_only(character.frame(), character.scene().state());
         glFinish();
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
     }
     std::vector<Subject> subjects;
     const auto add = [&](const std::string& name, const Face& face, std::uint32_t step) {
-        Result<Character> character = Character::create(*device, face);
+        Result<Portrait> character = Portrait::create(*device, face);
         if (!character) return false;
         std::vector<std::uint32_t> active;
         for (std::uint32_t k = 0; k < active_count; ++k) active.push_back(k * step);

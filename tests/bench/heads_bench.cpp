@@ -20,9 +20,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "runtime/character.h"
 #include "runtime/files/face_file.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
+#include "runtime/measure/portrait.h"
 #include "runtime/offscreen.h"
 
 namespace {
@@ -57,7 +57,7 @@ Face row_of_heads(const Face& face, std::uint32_t count, float apart) {
 }
 
 struct Heads {
-    Character character;
+    Portrait character;
     std::size_t skin_pixels = 0;
     std::vector<double> scatter_ms, shade_ms, rest_ms;
 };
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
     std::vector<Heads> heads;
     Camera camera;
     for (std::uint32_t count = 1; count <= most_heads; ++count) {
-        Result<Character> character = Character::create(*device, row_of_heads(*face, count, apart));
+        Result<Portrait> character = Portrait::create(*device, row_of_heads(*face, count, apart));
         if (!character) fail(character.error().message);
         const double scale = face_scale(*face).millimetres_a_unit;
         if (Status set = character->set("scattering.millimetres_a_unit", std::to_string(scale)); !set)
@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
     }
     for (int round = -1; round < rounds; ++round) {
         for (Heads& row : heads) {
-            View view = offscreen->view();
+            ViewFrame view = offscreen->view();
             view.camera = camera;
             view.samples = 1;
             view.timed = true;
@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
     }
     // Pixels of skin: those that scattering changes.
     for (Heads& row : heads) {
-        View view = offscreen->view();
+        ViewFrame view = offscreen->view();
         view.camera = camera;
         view.samples = 1;
         row.character.draw(view);

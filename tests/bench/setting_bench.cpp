@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/character.h"
 #include "runtime/files/face_file.h"
 #include "runtime/files/lighting_file.h"
+#include "runtime/measure/portrait.h"
 #include "runtime/offscreen.h"
 
 namespace {
@@ -58,14 +58,14 @@ int main(int argc, char** argv) {
     Result<Offscreen> offscreen = Offscreen::create(*device, side, side, Output::display_srgb);
     if (!offscreen) fail(offscreen.error().message);
 
-    std::vector<Character> characters;
+    std::vector<Portrait> characters;
     for (const char* value : {argv[3], argv[4]}) {
-        Result<Character> character = Character::create(*device, *face);
+        Result<Portrait> character = Portrait::create(*device, *face);
         if (!character) fail(character.error().message);
         if (Status set = character->set(setting, value); !set) fail(set.error().message);
         characters.push_back(*std::move(character));
     }
-    View view = offscreen->view();
+    ViewFrame view = offscreen->view();
     OrbitCamera orbit = characters[0].framing(1);
     constexpr float nearness = 2.5F;
     orbit.vertical_field_of_view_radians /= nearness;

@@ -11,6 +11,7 @@
 #include "runtime/files/image_file.h"
 #include "runtime/files/output_file.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -83,12 +84,12 @@ protected:
                       << (written ? (folder / (name + ".png")).string() : written.error().message);
     }
     Image picture(Face face, const std::vector<float>& weights, float yaw_radians) {
-        Character character = make_character(std::move(face));
+        Portrait character = make_character(std::move(face));
         test::set_weights(character, weights);
         // The dome is a sheet that light from behind shines through; these pictures are of its front.
         EXPECT_TRUE(character.set("translucency.strength", "0"));
         const Offscreen offscreen = make_offscreen(128, 128);
-        View view = test::framed_view(character, offscreen);
+        ViewFrame view = test::framed_view(character, offscreen);
         OrbitCamera camera = character.framing(1);
         camera.yaw_radians = yaw_radians;
         view.camera = camera.camera(1);
@@ -117,16 +118,16 @@ TEST_F(Golden, JointsAndABlendedHalf) {
     face.materials[1].alpha_mode = AlphaMode::blend;
     face.materials[1].base_color_linear = {0.2F, 0.4F, 0.9F, 0.5F};
     face.primitives[1].material = 1;
-    face.nodes[1].rest.rotation = glm::angleAxis(0.5F, glm::vec3(1, 0, 0));
+    face.nodes[1].rest.rotation = rotation_of(glm::angleAxis(0.5F, glm::vec3(1, 0, 0)));
     expect_golden("joints_and_blending", picture(std::move(face), {1, 1}, -0.4F), bounds);
 }
 
 TEST_F(Golden, FourPlacesOfSmaaOverTwoFrames) {
-    Character character = make_character(moved_face());
+    Portrait character = make_character(moved_face());
     ASSERT_TRUE(character.set("antialiasing.mode", "smaa_4x"));
     test::set_weights(character, {1, 0.8F, -1, 0.6F});
     const Offscreen offscreen = make_offscreen(128, 128);
-    View view = test::framed_view(character, offscreen);
+    ViewFrame view = test::framed_view(character, offscreen);
     OrbitCamera camera = character.framing(1);
     camera.yaw_radians = 0.5F;
     view.camera = camera.camera(1);
@@ -154,15 +155,15 @@ protected:
         character_.set(*character_.control(emotion), strength);
         return test::draw(character_, offscreen_, view_);
     }
-    Character loaded() {
-        Result<Character> character = Character::load(device_, fs::path(BLUSH_BINARY_DIR) / "assets/face.glb");
+    Portrait loaded() {
+        Result<Portrait> character = Portrait::load(device_, fs::path(BLUSH_BINARY_DIR) / "assets/face.glb");
         EXPECT_TRUE(character) << character.error().message;
         return *std::move(character);
     }
     static constexpr std::uint32_t width = 192, height = 224;
-    Character character_;
+    Portrait character_;
     Offscreen offscreen_;
-    View view_;
+    ViewFrame view_;
 };
 
 TEST_F(GoldenEmotions, AngerAndFearByHalfAndInFull) {

@@ -5,3 +5,5 @@
 #include <vector>
 
 #include "runtime/gl/object.h"
+
+using Unlike = glm::vec3;

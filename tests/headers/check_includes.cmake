@@ -2,6 +2,7 @@ cmake_minimum_required(VERSION 3.25)
 # cmake -DROOT=... "-DHEADERS=a.h;b.h" "-DPUBLIC=..." -P check_includes.cmake
 # A public header includes the standard library, GLM and other public headers; nothing that an engine would have to have.
 # Includes that climb through private headers are caught too: a private header is not in PUBLIC.
+# And it names no type whose layout is the host's choice (rig/vectors.h).
 set(faults 0)
 foreach(header IN LISTS HEADERS)
   file(STRINGS ${ROOT}/${header} lines REGEX "^[ \t]*#[ \t]*include")
@@ -11,6 +12,14 @@ foreach(header IN LISTS HEADERS)
       continue()
     endif()
     message(SEND_ERROR "${header} includes ${included}, which is neither public nor standard nor GLM")
+    math(EXPR faults "${faults} + 1")
+  endforeach()
+endforeach()
+foreach(header IN LISTS HEADERS)
+  file(STRINGS ${ROOT}/${header} lines REGEX "glm::[a-z0-9]*(vec|mat|quat|qua)[0-9x]*([^a-z0-9_<]|$)")
+  list(FILTER lines EXCLUDE REGEX "^ *//")
+  foreach(line IN LISTS lines)
+    message(SEND_ERROR "${header} names a type that a host's GLM_FORCE_ macros change: ${line}")
     math(EXPR faults "${faults} + 1")
   endforeach()
 endforeach()

@@ -196,7 +196,7 @@ TEST_F(GltfRules, MatrixAndTransform) {
     glb.json["nodes"][0] = {{"mesh", 0}, {"rotation", {0, 0, 2, 0}}, {"scale", {1, 2, 3}}};
     const Face turned = load(glb);
     EXPECT_FALSE(turned.nodes[0].matrix);
-    EXPECT_EQ(turned.nodes[0].rest.rotation, glm::quat(0, 0, 0, 1));
+    EXPECT_EQ(turned.nodes[0].rest.rotation, (Quat{0, 0, 0, 1}));
     EXPECT_EQ(turned.nodes[0].rest.scale, glm::vec3(1, 2, 3));
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runtime/files/face_file.h"
+#include "tests/rotation.h"
 #include "tests/shared_data.h"
 
 namespace blush {
@@ -16,7 +17,7 @@ using testing::IsEmpty;
 
 glm::mat4 parent_from_node(const Node& node) {
     if (node.matrix) return *node.matrix;
-    const glm::mat3 rotation = glm::mat3_cast(node.rest.rotation);
+    const glm::mat3 rotation = glm::mat3_cast(glm_of(node.rest.rotation));
     glm::mat4 m(1);
     for (int c = 0; c < 3; ++c) m[c] = glm::vec4(rotation[c] * node.rest.scale[c], 0);
     m[3] = glm::vec4(node.rest.translation, 1);
@@ -293,6 +294,8 @@ TEST(RealFiles, EveryFaceAndSampleLoads) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
         const std::string extension = entry.path().extension().string();
         if (extension != ".glb" && extension != ".gltf" && extension != ".obj") continue;
+        // Hard cases, of which some are to be refused.
+        if (std::filesystem::relative(entry.path(), root).lexically_normal().begin()->string() == "cases") continue;
         const Result<Face> face = load_face(entry.path());
         EXPECT_TRUE(face) << (face ? "" : face.error().message);
         ++loaded;

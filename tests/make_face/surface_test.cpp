@@ -1,6 +1,7 @@
 /// The face's surface: its colour follows from its pigments, its cards move with the skin, its maps have no seams and
 /// are the same from any number of threads.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -101,7 +102,7 @@ TEST(Pigments, AreWrittenBesideTheFaceThatTheyColour) {
     const Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(command.output));
     ASSERT_TRUE(appearance) << appearance.error().message;
     ASSERT_TRUE(appearance->pigments);
-    EXPECT_EQ(appearance->pigments->blood.names, hemoglobin_pattern_names);
+    EXPECT_TRUE(std::ranges::equal(appearance->pigments->blood.names, hemoglobin_pattern_names));
     const Result<Face> face = load_face(command.output);
     ASSERT_TRUE(face) << face.error().message;
     const Image& texture = face->images[static_cast<std::size_t>(face->materials[0].base_color_srgb.image)];

@@ -51,14 +51,15 @@ protected:
     /// Draws in every way and reads back; all that comes out must be finite and all directions of unit length.
     void expect_sound(Face face, const HardCase& hard, const std::string& setting, const std::string& value) {
         const auto targets = static_cast<std::ptrdiff_t>(face.targets.size());
-        Character character = make_character(std::move(face));
+        Portrait character = make_character(std::move(face));
         if (!setting.empty()) {
             ASSERT_TRUE(character.set(setting, value));
         }
         std::fill_n(character.controls().begin(), targets, hard.weight);
 
         const Offscreen display = make_offscreen(64, 64), linear = make_offscreen(64, 64, Output::linear_hdr);
-        View display_view = test::framed_view(character, display), linear_view = test::framed_view(character, linear);
+        ViewFrame display_view = test::framed_view(character, display),
+                  linear_view = test::framed_view(character, linear);
         if (hard.look != nullptr) {
             hard.look(display_view);
             hard.look(linear_view);
@@ -69,7 +70,7 @@ protected:
         display_view.force_effects = true;
         test::draw(character, display, display_view);
 
-        const Character::Surface surface = character.read_deformed();
+        const Scene::Surface surface = character.read_deformed();
         for (std::size_t v = 0; v < surface.normals.size(); ++v) {
             ASSERT_NEAR(glm::length(glm::dvec3(surface.normals[v])), 1, 1e-5) << "normal of vertex " << v;
             ASSERT_NEAR(glm::length(glm::dvec3(surface.tangents[v])), 1, 1e-5) << "tangent of vertex " << v;
@@ -107,10 +108,10 @@ INSTANTIATE_TEST_SUITE_P(EveryEffect, HardCases, testing::ValuesIn(all_cases()),
 class HardViews : public test::GlTest {};
 
 TEST_F(HardViews, ACameraInsideOrOnTheFaceStaysFinite) {
-    Character character = make_character(test::make_face({.targets = 1}));
+    Portrait character = make_character(test::make_face({.targets = 1}));
     const Offscreen offscreen = make_offscreen(64, 64);
     for (const float distance : {0.0F, 1e-3F, 0.6F, 1e6F}) {
-        View view = test::framed_view(character, offscreen);
+        ViewFrame view = test::framed_view(character, offscreen);
         OrbitCamera camera = character.framing(1);
         camera.distance = distance == 0 ? 1e-6F : distance;
         camera.pitch_radians = 9;  // clamped below the pole
@@ -120,9 +121,9 @@ TEST_F(HardViews, ACameraInsideOrOnTheFaceStaysFinite) {
 }
 
 TEST_F(HardViews, AnEmptyProjectionStaysFinite) {
-    Character character = make_character(test::make_face({.targets = 1}));
+    Portrait character = make_character(test::make_face({.targets = 1}));
     const Offscreen offscreen = make_offscreen(64, 64);
-    View view = test::framed_view(character, offscreen);
+    ViewFrame view = test::framed_view(character, offscreen);
     view.camera.clip_from_view = glm::mat4(0);
     test::draw(character, offscreen, view);
 }

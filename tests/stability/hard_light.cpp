@@ -22,16 +22,16 @@ protected:
     }
 
     /// Radiance of every pixel; fails on one that is not finite, in any pass.
-    Image drawn(const Lighting* lighting, const std::function<void(View&)>& look = {}, std::uint32_t side = 48) {
+    Image drawn(const Lighting* lighting, const std::function<void(ViewFrame&)>& look = {}, std::uint32_t side = 48) {
         const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
-        View view = test::framed_view(character_, offscreen);
+        ViewFrame view = test::framed_view(character_, offscreen);
         view.background_linear = glm::vec4(0, 0, 0, 1);
         view.lighting = lighting;
         if (look) look(view);
         Image image = test::draw(character_, offscreen, view);
         for (const float texel : image.floats) EXPECT_TRUE(std::isfinite(texel) && texel >= 0);
         const Offscreen display = make_offscreen(side, side);
-        View shown = test::framed_view(character_, display);
+        ViewFrame shown = test::framed_view(character_, display);
         shown.lighting = lighting;
         if (look) look(shown);
         test::draw(character_, display, shown);
@@ -67,7 +67,7 @@ protected:
         return lighting;
     }
 
-    Character character_;
+    Portrait character_;
 };
 
 TEST_F(HardLight, NoLightIsBlack) {
@@ -109,19 +109,19 @@ TEST_F(HardLight, ALightInsideTheHeadLightsWhatFacesIt) {
 TEST_F(HardLight, ACameraInsideTheHeadSeesNoOutside) {
     const Lighting light = lamp(1);
     // One-sided skin shows nothing of its back.
-    const Image image = drawn(&light, [](View& view) {
+    const Image image = drawn(&light, [](ViewFrame& view) {
         view.camera.view_from_world = glm::lookAt(glm::vec3(0, 0, -0.2F), glm::vec3(0, 0, 1), glm::vec3(0, 1, 0));
     });
     EXPECT_EQ(brightest(image), 0);
     // And in the skin itself.
-    drawn(&light, [](View& view) {
+    drawn(&light, [](ViewFrame& view) {
         view.camera.view_from_world = glm::lookAt(glm::vec3(0, 0, 0.6F), glm::vec3(0.3F, 0, 0.5F), glm::vec3(0, 1, 0));
     });
 }
 
 TEST_F(HardLight, AHeadAKilometreAwayIsAPixelOrNone) {
     const Lighting light = lamp(1);
-    const Image image = drawn(&light, [](View& view) {
+    const Image image = drawn(&light, [](ViewFrame& view) {
         view.camera.view_from_world[3].z = -1e4F;  // of units of 100 mm
         view.camera.clip_from_view = glm::perspective(0.4F, 1.0F, 1.0F, 1e5F);
     });
@@ -132,7 +132,7 @@ TEST_F(HardLight, AHeadAMillimetreAwayFillsThePicture) {
     const Lighting light = lamp(1);
     glm::vec3 nearest(0, 0, -9);
     for (const glm::vec3& p : character_.face().positions) nearest = p.z > nearest.z ? p : nearest;
-    const Image image = drawn(&light, [nearest](View& view) {
+    const Image image = drawn(&light, [nearest](ViewFrame& view) {
         view.camera.view_from_world =
             glm::lookAt(nearest + glm::vec3(0, 0, 0.01F), nearest, glm::vec3(0, 1, 0));  // 1 mm
         view.camera.clip_from_view = glm::perspective(0.4F, 1.0F, 1e-3F, 10.0F);
@@ -144,7 +144,7 @@ TEST_F(HardLight, AHeadAMillimetreAwayFillsThePicture) {
 TEST_F(HardLight, FieldsOfViewOf1And170Degrees) {
     const Lighting light = lamp(1);
     const auto seen = [&](float degrees) {
-        return lit_pixels(drawn(&light, [degrees](View& view) {
+        return lit_pixels(drawn(&light, [degrees](ViewFrame& view) {
             view.camera.view_from_world = glm::lookAt(glm::vec3(0, 0, 2), glm::vec3(0), glm::vec3(0, 1, 0));
             view.camera.clip_from_view = glm::perspective(glm::radians(degrees), 1.0F, 0.01F, 100.0F);
         }));

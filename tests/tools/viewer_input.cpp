@@ -22,7 +22,7 @@ ViewerState looking_at_a_head() {
 /// Where a point of the world is drawn in a square view, pixels right and down of its middle.
 glm::vec2 pixel_of(const OrbitCamera& orbit, glm::vec3 world) {
     const Camera camera = orbit.camera(1);
-    const glm::vec4 clip = camera.clip_from_view * camera.view_from_world * glm::vec4(world, 1);
+    const glm::vec4 clip = camera.clip_from_view * glm::mat4(camera.view_from_world) * glm::vec4(world, 1);
     return 0.5F * static_cast<float>(view_height) * glm::vec2(clip.x, -clip.y) / clip.w;
 }
 
@@ -32,7 +32,7 @@ TEST(ViewerDrag, PannedPointStaysUnderThePointer) {
             ViewerState state = looking_at_a_head();
             state.camera.yaw_radians = yaw;
             state.camera.pitch_radians = pitch;
-            const glm::vec3 grabbed = state.camera.target_world;
+            const glm::vec3 grabbed(state.camera.target_world);
             drag(Drag::pan, 30, 17, view_height, state);
             const glm::vec2 pixel = pixel_of(state.camera, grabbed);
             EXPECT_NEAR(pixel.x, 30, 0.01F);
@@ -44,7 +44,7 @@ TEST(ViewerDrag, PannedPointStaysUnderThePointer) {
 
 TEST(ViewerDrag, OrbitTurnsTheFrontOfTheFaceWithThePointer) {
     ViewerState state = looking_at_a_head();
-    const glm::vec3 nose = state.camera.target_world + glm::vec3(0, 0, 0.1F);
+    const glm::vec3 nose = glm::vec3(state.camera.target_world) + glm::vec3(0, 0, 0.1F);
     drag(Drag::orbit, 20, 0, view_height, state);
     EXPECT_GT(pixel_of(state.camera, nose).x, 1);
     EXPECT_NEAR(pixel_of(state.camera, nose).y, 0, 0.01F);

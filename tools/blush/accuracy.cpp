@@ -9,8 +9,9 @@
 #include "runtime/files/face_file.h"
 #include "runtime/files/output_file.h"
 #include "runtime/measure/accuracy.h"
+#include "tools/blush/assets.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/new_folder.h"
-#include "tools/blush/options.h"
 
 namespace blush::tool {
 namespace {
@@ -215,20 +216,20 @@ int accuracy(const Options& options) {
 
 }  // namespace
 
-void add_accuracy(CLI::App& app, int& exit_status) {
+void add_accuracy(Command& program) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
+    Command command = program.subcommand(
         "accuracy", "Measure error against time for every effect and setting, and write a page of it");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->capture_default_str();
-    command->add_option("--effect", options->effect, "One effect by name");
-    command->add_flag("--quick", options->quick, "Fewer rounds and the largest study of each effect only");
-    command->add_flag("--check-finite", options->check_finite, "Fail on any error that is not finite");
+    command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").shows_default();
+    command.option("--effect", &options->effect, "One effect by name");
+    command.flag("--quick", options->quick, "Fewer rounds and the largest study of each effect only");
+    command.flag("--check-finite", options->check_finite, "Fail on any error that is not finite");
     command
-        ->add_option("--millimetres-per-unit", options->millimetres_a_unit,
-                     "Scale of the face; found from its size without it")
-        ->check(number_from(1e-6, 1e6));
-    command->add_option("-o,--output", options->output, "A folder for accuracy.json and index.html")->required();
-    command->callback([options, &exit_status] { exit_status = accuracy(*options); });
+        .option("--millimetres-per-unit", &options->millimetres_a_unit,
+                "Scale of the face; found from its size without it")
+        .range(1e-6, 1e6);
+    command.option("-o,--output", &options->output, "A folder for accuracy.json and index.html").required();
+    command.runs([options] { return accuracy(*options); });
 }
 
 }  // namespace blush::tool

@@ -5,7 +5,7 @@
 
 #include "runtime/antialias/filter_picture.h"
 #include "runtime/files/picture_file.h"
-#include "tools/blush/options.h"
+#include "tools/blush/commands.h"
 
 namespace blush::tool {
 namespace {
@@ -206,81 +206,71 @@ int antialias(const Options& options) {
 
 }  // namespace
 
-void add_antialias(CLI::App& app, int& exit_status) {
+void add_antialias(Command& program) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("antialias", "Smooth the edges of a picture: SMAA 1x, or MLAA");
+    Command command = program.subcommand("antialias", "Smooth the edges of a picture: SMAA 1x, or MLAA");
+    command.option("IN", &options->input, "A PNG, JPEG, WebP, Radiance HDR or OpenEXR file; its first four channels")
+        .required();
     command
-        ->add_option("IN", options->input, "A PNG, JPEG, WebP, Radiance HDR or OpenEXR file; its first four channels")
-        ->required();
+        .option("-o,--output", &options->output,
+                "A .png, .jpg or .tif file, or .exr or .hdr from one of those; keeps 16 bits and alpha where the "
+                "format can")
+        .required();
+    command.option("--mode", &options->mode, "The filter").one_of({"smaa1x", "mlaa"}).shows_default();
+    command.option("--preset", &options->preset, "Threshold and reach of SMAA's searches")
+        .one_of(std::vector<std::string>(smaa_preset_names.begin(), smaa_preset_names.end()))
+        .shows_default();
+    command.option("--on", &options->on, "Where to compute").one_of({"cpu", "gpu"}).shows_default();
+    command.option("--edges", &options->edges_file,
+                   "Write the edges too: red left, green upper boundary of each pixel");
+    command.option("--weights", &options->weights_file,
+                   "Write the weights too: red what a pixel takes through its upper boundary, green what the "
+                   "pixel above takes, blue the larger of both at its left boundary");
+    command.option("--threshold", &options->threshold, "Contrast from which there is an edge; lower finds more")
+        .range(0, 0.5);
+    command.option("--edges-from", &options->edges_from, "Where edges are looked for")
+        .one_of({"luma", "color", "depth"})
+        .shows_default();
+    command.option("--depth", &options->depth_file, "A picture as large as IN whose first channel is depth, 0 to 1");
     command
-        ->add_option("-o,--output", options->output,
-                     "A .png, .jpg or .tif file, or .exr or .hdr from one of those; keeps 16 bits and alpha where the "
-                     "format can")
-        ->required();
-    command->add_option("--mode", options->mode, "The filter")
-        ->check(CLI::IsMember({"smaa1x", "mlaa"}))
-        ->capture_default_str();
-    command->add_option("--preset", options->preset, "Threshold and reach of SMAA's searches")
-        ->check(CLI::IsMember(std::vector<std::string>(smaa_preset_names.begin(), smaa_preset_names.end())))
-        ->capture_default_str();
-    command->add_option("--on", options->on, "Where to compute")
-        ->check(CLI::IsMember({"cpu", "gpu"}))
-        ->capture_default_str();
-    command->add_option("--edges", options->edges_file,
-                        "Write the edges too: red left, green upper boundary of each pixel");
-    command->add_option("--weights", options->weights_file,
-                        "Write the weights too: red what a pixel takes through its upper boundary, green what the "
-                        "pixel above takes, blue the larger of both at its left boundary");
-    command->add_option("--threshold", options->threshold, "Contrast from which there is an edge; lower finds more")
-        ->check(number_from(0, 0.5));
-    command->add_option("--edges-from", options->edges_from, "Where edges are looked for")
-        ->check(CLI::IsMember({"luma", "color", "depth"}))
-        ->capture_default_str();
-    command->add_option("--depth", options->depth_file,
-                        "A picture as large as IN whose first channel is depth, 0 to 1");
+        .option("--depth-threshold", &options->depth_threshold,
+                "Difference of depth from which there is an edge (0.01)")
+        .range(0, 1);
     command
-        ->add_option("--depth-threshold", options->depth_threshold,
-                     "Difference of depth from which there is an edge (0.01)")
-        ->check(number_from(0, 1));
+        .option("--contrast-factor", &options->contrast_factor,
+                "Drop edges below this share of the contrast beside them (0.5 for SMAA; 0: none)")
+        .range(0, 1);
     command
-        ->add_option("--contrast-factor", options->contrast_factor,
-                     "Drop edges below this share of the contrast beside them (0.5 for SMAA; 0: none)")
-        ->check(number_from(0, 1));
+        .option("--search-steps", &options->search_steps, "Reach along a line, in steps of two pixels; MLAA: up to 4")
+        .range(1, largest_search_steps);
     command
-        ->add_option("--search-steps", options->search_steps,
-                     "Reach along a line, in steps of two pixels; MLAA: up to 4")
-        ->check(CLI::Range(1, largest_search_steps));
+        .option("--diagonal-steps", &options->diagonal_search_steps,
+                "Reach along a diagonal, in pixels; 0: no diagonals")
+        .range(0, largest_diagonal_search_steps);
+    command.option("--corner-rounding", &options->corner_rounding, "How much a sharp corner is rounded").range(0, 1);
+    command.flag("--predication", options->predication.on,
+                 "Lower the threshold where depth has an edge, raise it elsewhere");
+    command.option("--predication-threshold", &options->predication.depth_threshold, "Difference of depth that counts")
+        .range(0, 1)
+        .shows_default();
+    command.option("--predication-scale", &options->predication.scale, "Factor on the threshold")
+        .range(1, 5)
+        .shows_default();
     command
-        ->add_option("--diagonal-steps", options->diagonal_search_steps,
-                     "Reach along a diagonal, in pixels; 0: no diagonals")
-        ->check(CLI::Range(0, largest_diagonal_search_steps));
-    command->add_option("--corner-rounding", options->corner_rounding, "How much a sharp corner is rounded")
-        ->check(number_from(0, 1));
-    command->add_flag("--predication", options->predication.on,
-                      "Lower the threshold where depth has an edge, raise it elsewhere");
+        .option("--predication-strength", &options->predication.strength,
+                "How much of it is taken away at a silhouette")
+        .range(0, 1)
+        .shows_default();
     command
-        ->add_option("--predication-threshold", options->predication.depth_threshold, "Difference of depth that counts")
-        ->check(number_from(0, 1))
-        ->capture_default_str();
-    command->add_option("--predication-scale", options->predication.scale, "Factor on the threshold")
-        ->check(number_from(1, 5))
-        ->capture_default_str();
+        .option("--blend", &options->blend, "Mix neighbours in linear light, or the file's numbers as they are (gamma)")
+        .one_of({"linear", "gamma"})
+        .shows_default();
     command
-        ->add_option("--predication-strength", options->predication.strength,
-                     "How much of it is taken away at a silhouette")
-        ->check(number_from(0, 1))
-        ->capture_default_str();
-    command
-        ->add_option("--blend", options->blend,
-                     "Mix neighbours in linear light, or the file's numbers as they are (gamma)")
-        ->check(CLI::IsMember({"linear", "gamma"}))
-        ->capture_default_str();
-    command
-        ->add_option("--transfer", options->transfer,
-                     "What the file's numbers are; auto: linear in .exr and .hdr files, sRGB in others")
-        ->check(CLI::IsMember({"auto", "srgb", "linear"}))
-        ->capture_default_str();
-    command->callback([options, &exit_status] { exit_status = antialias(*options); });
+        .option("--transfer", &options->transfer,
+                "What the file's numbers are; auto: linear in .exr and .hdr files, sRGB in others")
+        .one_of({"auto", "srgb", "linear"})
+        .shows_default();
+    command.runs([options] { return antialias(*options); });
 }
 
 }  // namespace blush::tool

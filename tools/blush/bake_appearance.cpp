@@ -9,9 +9,10 @@
 #include "runtime/files/appearance_file.h"
 #include "runtime/files/face_appearance.h"
 #include "runtime/files/face_file.h"
+#include "tools/blush/assets.h"
 #include "tools/blush/baker_options.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/new_folder.h"
-#include "tools/blush/options.h"
 
 namespace blush::tool {
 namespace {
@@ -226,28 +227,26 @@ int bake(const Options& options) {
 
 }  // namespace
 
-void add_bake_appearance(CLI::App& bake_command, int& exit_status) {
+void add_bake_appearance(Command& bake_command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = bake_command.add_subcommand(
+    Command command = bake_command.subcommand(
         "appearance", "Melanin and hemoglobin out of a colour texture, and what each expression does to the blood");
-    command->add_option("FACE", options->face,
-                        "The face whose texture this is (its own texture where --albedo is not given)");
-    command->add_option("--albedo", options->albedo, "Colour texture: PNG, JPEG, WebP (sRGB), HDR or EXR (linear)");
-    command->add_option("-o,--output", options->output, "Folder for the maps")->required();
-    command->add_option("--mask", options->mask, "Picture that is bright where the texture is skin");
-    command->add_option("--landmarks", options->landmarks, "JSON with left_eye, right_eye and mouth in the texture");
-    command->add_option("--patterns", options->patterns, "Folder of hemoglobin patterns instead of the shipped ones");
-    command->add_option("--from", options->from,
-                        "Another face with maps beside it: its expressions' blood instead of the shipped patterns");
-    options->baker.add_to(*command, appearance_baking_effect);
-    command->add_option("--melanin", options->typical_melanin, "Melanin fraction of the typical skin, where known")
-        ->check(number_from(0, largest_melanin));
-    command
-        ->add_option("--hemoglobin", options->typical_hemoglobin,
-                     "Hemoglobin fraction of the typical skin, where known")
-        ->check(number_from(0, largest_hemoglobin));
-    command->add_flag("--preview", options->preview, "Also write the recomposed texture, and one for each expression");
-    command->callback([options, &exit_status] { exit_status = bake(*options); });
+    command.option("FACE", &options->face,
+                   "The face whose texture this is (its own texture where --albedo is not given)");
+    command.option("--albedo", &options->albedo, "Colour texture: PNG, JPEG, WebP (sRGB), HDR or EXR (linear)");
+    command.option("-o,--output", &options->output, "Folder for the maps").required();
+    command.option("--mask", &options->mask, "Picture that is bright where the texture is skin");
+    command.option("--landmarks", &options->landmarks, "JSON with left_eye, right_eye and mouth in the texture");
+    command.option("--patterns", &options->patterns, "Folder of hemoglobin patterns instead of the shipped ones");
+    command.option("--from", &options->from,
+                   "Another face with maps beside it: its expressions' blood instead of the shipped patterns");
+    options->baker.add_to(command, appearance_baking_effect);
+    command.option("--melanin", &options->typical_melanin, "Melanin fraction of the typical skin, where known")
+        .range(0, largest_melanin);
+    command.option("--hemoglobin", &options->typical_hemoglobin, "Hemoglobin fraction of the typical skin, where known")
+        .range(0, largest_hemoglobin);
+    command.flag("--preview", options->preview, "Also write the recomposed texture, and one for each expression");
+    command.runs([options] { return bake(*options); });
 }
 
 }  // namespace blush::tool

@@ -6,7 +6,8 @@
 #include "runtime/bake/bake_occlusion.h"
 #include "runtime/files/face_file.h"
 #include "runtime/files/occlusion_file.h"
-#include "tools/blush/options.h"
+#include "tools/blush/assets.h"
+#include "tools/blush/commands.h"
 
 namespace blush::tool {
 namespace {
@@ -37,22 +38,23 @@ Status bake(Options options) {
 
 }  // namespace
 
-void add_bake_occlusion(CLI::App& bake_command, int& exit_status) {
+void add_bake_occlusion(Command& bake_command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = bake_command.add_subcommand(
+    Command command = bake_command.subcommand(
         "occlusion", "How much light from around the face hides from its own vertices, for environments");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
-    command->add_option("-o,--output", options->output, "The file; head.occlusion beside head.glb is found by itself")
-        ->required();
-    command->add_option("--rays", options->bake.rays, "Cast from each vertex in each pose")
-        ->check(CLI::Range(16U, 65'536U))
-        ->capture_default_str();
-    auto* targets = command->add_option("--pose", options->bake.targets,
-                                        "A target that opens or closes something; several, up to 7. Without any: "
-                                        "jawOpen, eyeBlinkLeft and eyeBlinkRight where the face has them");
-    command->add_flag("--rest-alone", options->rest_alone, "No pose but rest")->excludes(targets);
-    command->callback([options, &exit_status] {
-        if (Status baked = bake(*options); !baked) exit_status = fail(baked.error());
+    command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").required();
+    command.option("-o,--output", &options->output, "The file; head.occlusion beside head.glb is found by itself")
+        .required();
+    command.option("--rays", &options->bake.rays, "Cast from each vertex in each pose")
+        .range(16, 65'536)
+        .shows_default();
+    const Option targets = command.option("--pose", &options->bake.targets,
+                                          "A target that opens or closes something; several, up to 7. Without any: "
+                                          "jawOpen, eyeBlinkLeft and eyeBlinkRight where the face has them");
+    command.flag("--rest-alone", options->rest_alone, "No pose but rest").excludes(targets);
+    command.runs([options] {
+        const Status baked = bake(*options);
+        return baked ? 0 : fail(baked.error());
     });
 }
 

@@ -4,8 +4,8 @@
 
 #include "rig/antialias/smaa_tables.h"
 #include "runtime/files/picture_file.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/new_folder.h"
-#include "tools/blush/options.h"
 
 namespace blush::tool {
 namespace {
@@ -42,14 +42,14 @@ int bake(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void add_bake_smaa_tables(CLI::App& bake_command, int& exit_status) {
+void add_bake_smaa_tables(Command& bake_command) {
     auto folder = std::make_shared<std::string>();
-    CLI::App* command = bake_command.add_subcommand(
+    Command command = bake_command.subcommand(
         "smaa-tables",
         "Write smaa_areas.png (160x560, gray and alpha: areas on either side of an edge, seven subsample offsets of 80 "
         "rows) and smaa_search.png (64x16), as published shaders read them");
-    command->add_option("-o,--output", *folder, "A folder; it is made where it is missing")->required();
-    command->callback([folder, &exit_status] { exit_status = bake(*folder); });
+    command.option("-o,--output", folder.get(), "A folder; it is made where it is missing").required();
+    command.runs([folder] { return bake(*folder); });
 }
 
 }  // namespace blush::tool

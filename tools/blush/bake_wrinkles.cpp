@@ -8,9 +8,10 @@
 #include "runtime/files/face_file.h"
 #include "runtime/files/output_file.h"
 #include "runtime/files/wrinkle_bake.h"
+#include "tools/blush/assets.h"
 #include "tools/blush/baker_options.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/new_folder.h"
-#include "tools/blush/options.h"
 
 namespace blush::tool {
 namespace {
@@ -82,18 +83,19 @@ Status bake(const Options& options) {
 
 }  // namespace
 
-void add_bake_wrinkles(CLI::App& bake_command, int& exit_status) {
+void add_bake_wrinkles(Command& bake_command) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = bake_command.add_subcommand(
-        "wrinkles", "Wrinkle maps out of how the face's expressions press its skin together");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
-    command->add_option("-o,--output", options->output, "Folder for the maps, such as FACE.appearance")->required();
-    options->baker.add_to(*command, wrinkle_baking_effect);
-    command->add_option("--millimetres-per-unit", options->millimetres_a_unit, "Scale of the mesh; told by the pupils")
-        ->check(number_from(1e-6, 1e6));
-    command->add_flag("--displacement", options->displacement, "Also write displacement_mm.exr");
-    command->callback([options, &exit_status] {
-        if (Status baked = bake(*options); !baked) exit_status = fail(baked.error());
+    Command command =
+        bake_command.subcommand("wrinkles", "Wrinkle maps out of how the face's expressions press its skin together");
+    command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").required();
+    command.option("-o,--output", &options->output, "Folder for the maps, such as FACE.appearance").required();
+    options->baker.add_to(command, wrinkle_baking_effect);
+    command.option("--millimetres-per-unit", &options->millimetres_a_unit, "Scale of the mesh; told by the pupils")
+        .range(1e-6, 1e6);
+    command.flag("--displacement", options->displacement, "Also write displacement_mm.exr");
+    command.runs([options] {
+        const Status baked = bake(*options);
+        return baked ? 0 : fail(baked.error());
     });
 }
 

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include "tools/blush/options.h"
-
 namespace blush::tool {
 
-void BakerOptions::add_to(CLI::App& command, const Effect& effect) {
+void BakerOptions::add_to(Command& command, const Effect& effect) {
     for (const Setting& setting : effect.settings) {
         std::string flag = "--" + std::string(setting.name);
         std::ranges::replace(flag, '_', '-');
@@ -15,13 +13,11 @@ void BakerOptions::add_to(CLI::App& command, const Effect& effect) {
         if (!setting.choices.empty()) {
             std::string& choice = choices_[std::string(setting.name)] = setting.choices[setting.default_choice];
             const std::vector<std::string> names(setting.choices.begin(), setting.choices.end());
-            command.add_option(flag, choice, meaning)->check(CLI::IsMember(names))->capture_default_str();
+            command.option(flag, &choice, meaning).one_of(names).shows_default();
             continue;
         }
         double& value = values_[std::string(setting.name)] = setting.default_number;
-        command.add_option(flag, value, meaning)
-            ->check(number_from(setting.lowest, setting.highest))
-            ->capture_default_str();
+        command.option(flag, &value, meaning).range(setting.lowest, setting.highest).shows_default();
     }
 }
 

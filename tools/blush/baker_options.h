@@ -2,20 +2,18 @@
 /// Options of a bake command out of the settings of its effect: one source of names, meanings, ranges and defaults.
 
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
-
 #include "runtime/frame/effect.h"
+#include "tools/command_line/command_line.h"
 
 namespace blush::tool {
 
 class BakerOptions {
 public:
     /// Adds --NAME for each of the effect's settings ("mask_size" becomes --mask-size).
-    void add_to(CLI::App& command, const Effect& effect);
+    void add_to(Command& command, const Effect& effect);
 
     double number(std::string_view setting) const { return values_.find(setting)->second; }
     const std::string& choice(std::string_view setting) const { return choices_.find(setting)->second; }

@@ -5,8 +5,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "rig/controls/rig.h"
 #include "runtime/files/face_file.h"
-#include "tools/blush/options.h"
+#include "runtime/files/rig_description_file.h"
+#include "tools/blush/assets.h"
+#include "tools/blush/commands.h"
 
 namespace blush::tool {
 namespace {
@@ -144,9 +147,7 @@ void print(const Json& json) {
 int controls(const std::string& face_name, const std::string& rig_name, bool as_json) {
     const Result<Face> face = load_face(face_path(face_name));
     if (!face) return fail(face.error());
-    PoseOptions options;
-    options.rig_file = rig_name;
-    const Result<RigDescription> description = describe_rig(*face, options);
+    const Result<RigDescription> description = find_rig_description(*face, rig_name);
     if (!description) return fail(description.error());
     const Json json = describe(*face, *description, Rig(*face, *description));
     if (as_json) {
@@ -160,18 +161,17 @@ int controls(const std::string& face_name, const std::string& rig_name, bool as_
 
 }  // namespace
 
-void add_controls(CLI::App& app, int& exit_status) {
+void add_controls(Command& program) {
     struct Options {
         std::string face, rig;
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("controls", "List what can be set on a face, and what each control does");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
-    command->add_option("--rig", options->rig,
-                        "A rig description; FACE.rig.json where this is left out and there is one");
-    command->add_flag("--json", options->json, "Print JSON");
-    command->callback([options, &exit_status] { exit_status = controls(options->face, options->rig, options->json); });
+    Command command = program.subcommand("controls", "List what can be set on a face, and what each control does");
+    command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").required();
+    command.option("--rig", &options->rig, "A rig description; FACE.rig.json where this is left out and there is one");
+    command.flag("--json", options->json, "Print JSON");
+    command.runs([options] { return controls(options->face, options->rig, options->json); });
 }
 
 }  // namespace blush::tool

@@ -1,5 +1,6 @@
 /// blush evaluate: the deformed mesh as numbers.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -7,8 +8,12 @@
 #include "rig/deform/deform.h"
 #include "runtime/files/face_file.h"
 #include "runtime/files/output_file.h"
-#include "tools/blush/options.h"
+#include "runtime/files/rig_description_file.h"
+#include "runtime/settings.h"
+#include "tools/blush/assets.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/performing.h"
+#include "tools/blush/stage.h"
 
 namespace blush::tool {
 namespace {
@@ -21,7 +26,7 @@ struct Options {
 };
 
 /// The first vertex with a NaN or an infinity, as --check-finite reports it.
-std::optional<NotFinite> find_not_finite(const Character::Surface& surface, const std::string& pass) {
+std::optional<NotFinite> find_not_finite(const Scene::Surface& surface, const std::string& pass) {
     for (std::size_t v = 0; v < surface.positions.size(); ++v) {
         for (glm::length_t c = 0; c < 3; ++c) {
             const std::string place = "vertex " + std::to_string(v) + " component " + std::to_string(c);
@@ -33,38 +38,30 @@ std::optional<NotFinite> find_not_finite(const Character::Surface& surface, cons
     return std::nullopt;
 }
 
-Result<Character::Surface> evaluate_on_cpu(const Face& face, const Options& options) {
-    const Result<RigDescription> description = describe_rig(face, options.pose);
+Result<Scene::Surface> evaluate_on_cpu(const Face& face, const Options& options) {
+    const Result<RigDescription> description = find_rig_description(face, options.pose.rig_file);
     if (!description) return description.error();
     const Rig rig(face, *description);
     std::vector<float> controls(rig.control_names().size());
     if (Status set = options.pose.apply(face, rig, controls); !set) return set.error();
     EffectSettings settings;
-    for (const std::string& setting : options.pose.settings) {
-        const std::size_t equals = setting.find('=');
-        if (equals == std::string::npos) return Error{"--setting " + setting + ": not NAME=CHOICE"};
-        if (Status set = settings.set(setting.substr(0, equals), setting.substr(equals + 1)); !set) {
-            return Error{"--setting " + setting + ": " + set.error().message};
-        }
-    }
+    const auto apply_setting = [&](std::string_view name, std::string_view value) { return settings.set(name, value); };
+    if (Status set = options.pose.apply_settings(apply_setting); !set) return set.error();
     Pose pose = rig.rest_pose();
-    const auto no_colour = [](const BloodFlow&) {};
-    if (Status performed = perform_moment(face, rig, options.perform, controls, pose, no_colour); !performed) {
+    if (Status performed = perform_moment(face, rig, options.perform, controls, pose); !performed) {
         return performed.error();
     }
     rig.evaluate(controls, pose);
     Deformer deformer(face);
     DeformedSurface surface;
     deformer.deform(pose.weights, static_cast<NormalMethod>(settings.choice("normals", "source")), surface);
-    return Character::Surface{std::move(surface.positions), std::move(surface.normals), std::move(surface.tangents)};
+    return Scene::Surface{std::move(surface.positions), std::move(surface.normals), std::move(surface.tangents)};
 }
 
 /// Moves each mesh to where its first node stands in the world at rest.
-void place_in_world(const Face& face, Character::Surface& surface) {
-    Pose pose;
-    for (const Node& node : face.nodes) pose.nodes.push_back(node.rest);
-    std::vector<glm::mat4> world(face.nodes.size());
-    world_from_nodes(face, pose, {}, world);
+void place_in_world(const Face& face, Scene::Surface& surface) {
+    const std::vector<glm::dmat4> placed = rest_placement(face);
+    const std::vector<glm::mat4> world(placed.begin(), placed.end());
     for (const Primitive& primitive : face.primitives) {
         const auto node = std::ranges::find(face.nodes, static_cast<std::int32_t>(primitive.mesh), &Node::mesh);
         if (node == face.nodes.end()) continue;
@@ -80,18 +77,17 @@ void place_in_world(const Face& face, Character::Surface& surface) {
 int evaluate(const Options& options) {
     const Result<Face> face = load_face(face_path(options.face));
     if (!face) return fail(face.error());
-    Character::Surface surface;
+    Scene::Surface surface;
     if (options.on == "cpu") {
-        Result<Character::Surface> evaluated = evaluate_on_cpu(*face, options);
+        Result<Scene::Surface> evaluated = evaluate_on_cpu(*face, options);
         if (!evaluated) return fail(evaluated.error());
         surface = *std::move(evaluated);
     } else {
         Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
         if (!stage) return fail(stage.error());
-        Character& character = (*stage)->character;
-        const auto no_colour = [](const BloodFlow&) {};
+        Portrait& character = (*stage)->character;
         if (Status performed = perform_moment(character.face(), character.rig(), options.perform, character.controls(),
-                                              character.pose(), no_colour);
+                                              character.pose());
             !performed) {
             return fail(performed.error());
         }
@@ -100,7 +96,7 @@ int evaluate(const Options& options) {
     if (options.check_finite) {
         FrameReport report;
         report.not_finite = find_not_finite(surface, "evaluate on " + options.on);
-        if (const int found = report_not_finite(report); found != 0) return found;
+        if (Status good = finite(report); !good) return fail(good.error());
     }
     if (options.space == "world") place_in_world(*face, surface);
     if (Status written = write_surface(options.output, surface.positions, surface.normals, face->indices); !written) {
@@ -113,24 +109,20 @@ int evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate(CLI::App& app, int& exit_status) {
+void add_evaluate(Command& program) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
+    Command command = program.subcommand(
         "evaluate", "Write the deformed mesh: every vertex of the file, all primitives in file order, before joints");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
-    options->pose.add_to(*command);
-    options->perform.add_moment_to(*command);
-    command->add_option("--on", options->on, "Where to compute")
-        ->check(CLI::IsMember({"cpu", "gpu"}))
-        ->capture_default_str();
-    command
-        ->add_option("--space", options->space,
-                     "mesh: the mesh's own space; world: after its node's place in the scene")
-        ->check(CLI::IsMember({"mesh", "world"}))
-        ->capture_default_str();
-    command->add_option("-o,--output", options->output, "A .ply or .obj file")->required();
-    command->add_flag("--check-finite", options->check_finite, "Fail on any NaN or infinity");
-    command->callback([options, &exit_status] { exit_status = evaluate(*options); });
+    command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").required();
+    options->pose.add_to(command);
+    options->perform.add_moment_to(command);
+    command.option("--on", &options->on, "Where to compute").one_of({"cpu", "gpu"}).shows_default();
+    command.option("--space", &options->space, "mesh: the mesh's own space; world: after its node's place in the scene")
+        .one_of({"mesh", "world"})
+        .shows_default();
+    command.option("-o,--output", &options->output, "A .ply or .obj file").required();
+    command.flag("--check-finite", options->check_finite, "Fail on any NaN or infinity");
+    command.runs([options] { return evaluate(*options); });
 }
 
 }  // namespace blush::tool

@@ -1,186 +1,45 @@
-/// blush explain: what the frame that `render` draws runs, what it leaves out, and why.
+/// blush explain: what the frame that `render` draws with the same options runs, what it leaves out, and why.
 
 #include <iostream>
-#include <map>
-#include <nlohmann/json.hpp>
+#include <memory>
 
-#include "runtime/frame/character_state.h"
-#include "runtime/frame/effect.h"
-#include "runtime/offscreen.h"
-#include "tools/blush/options.h"
+#include "runtime/files/output_file.h"
+#include "tools/blush/commands.h"
+#include "tools/blush/plan.h"
+#include "tools/blush/still.h"
 
 namespace blush::tool {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Options {
-    std::string face;
-    PoseOptions pose;
-    bool json = false, check_finite = false;
-};
-
-/// What of the rig acts, and what it leaves out: all of it exactly, since a control at 0 adds nothing.
-Json describe_rig(const Rig& rig, const Pose& pose) {
-    const std::span<const std::string> names = rig.control_names();
-    Json json;
-    json["controls"] = names.size();
-    json["acting"] = Json::array();
-    std::map<std::string_view, std::size_t> at_rest;
-    for (std::size_t c = 0; c < names.size(); ++c) {
-        const std::string_view kind = name_of(rig.info(static_cast<ControlId>(c)).kind);
-        if (pose.acting[c] == 0) {
-            ++at_rest[kind];
-        } else {
-            json["acting"].push_back({{"name", names[c]}, {"kind", kind}, {"value", pose.acting[c]}});
-        }
+int explain(const StillOptions& options, bool as_json) {
+    const Result<Still> still = draw_still(options);
+    if (!still) return fail(still.error());
+    if (!options.report.empty()) {
+        if (Status written = write_file(options.report, text_of(still->plan)); !written) return fail(written.error());
     }
-    json["at_rest"] = Json::object();
-    for (const auto& [kind, count] : at_rest) json["at_rest"][std::string(kind)] = count;
-    json["correctives"] = Json::array();
-    for (const RigProgram::Corrective& corrective : rig.program().correctives) {
-        Json entry = {{"target", names[corrective.target]}, {"value", rig.value_of(corrective, pose)}};
-        for (const std::uint32_t driver : corrective.drivers.of(rig.program().corrective_drivers)) {
-            if (pose.acting[driver] <= 0) entry["without"].push_back(names[driver]);
-        }
-        json["correctives"].push_back(std::move(entry));
-    }
-    json["wrinkles"] = Json::object();
-    for (std::size_t z = 0; z < pose.wrinkles.size(); ++z) {
-        if (pose.wrinkles[z] != 0) json["wrinkles"][rig.wrinkle_zones()[z]] = pose.wrinkles[z];
-    }
-    json["hemoglobin"] = Json::object();
-    for (std::size_t m = 0; m < pose.hemoglobin.size(); ++m) {
-        if (pose.hemoglobin[m] != 0) json["hemoglobin"][rig.hemoglobin_maps()[m]] = pose.hemoglobin[m];
-    }
-    json["hemoglobin_factor"] = pose.hemoglobin_factor;
-    return json;
-}
-
-/// How large the face is taken to be: what scattering, translucency and the lens reckon in.
-Json describe_scale(const CharacterState& state) {
-    const bool set = state.settings.number(scattering_effect.name, "millimetres_a_unit") > 0;
-    return {{"millimetres_a_unit", state.millimetres_a_unit},
-            {"told_by", set ? "scattering.millimetres_a_unit says so" : state.scale.told_by}};
-}
-
-void print_values(const char* what, const Json& values) {
-    std::cout << "  " << what << ":";
-    for (const auto& [name, value] : values.items()) std::cout << " " << name << " = " << value.get<float>();
-    std::cout << (values.empty() ? " none" : "") << "\n";
-}
-
-void print_rig(const Json& rig) {
-    std::cout << "rig: " << rig["acting"].size() << " of " << rig["controls"] << " controls act\n";
-    for (const Json& control : rig["acting"]) {
-        std::cout << "  " << control["name"].get<std::string>() << " = " << control["value"].get<float>() << " ("
-                  << control["kind"].get<std::string>() << ")\n";
-    }
-    std::cout << "  left out, since at 0 (exact: changes no bit):";
-    for (const auto& [kind, count] : rig["at_rest"].items()) {
-        std::cout << (kind == rig["at_rest"].begin().key() ? " " : ", ") << count << " " << kind
-                  << (count == 1 ? "" : "s");
-    }
-    std::cout << "\n";
-    for (const Json& corrective : rig["correctives"]) {
-        std::cout << "  corrective " << corrective["target"].get<std::string>();
-        if (corrective.contains("without")) {
-            std::cout << ": left out, since " << corrective["without"][0].get<std::string>() << " is at rest (exact)\n";
-        } else {
-            std::cout << " = " << corrective["value"].get<float>() << "\n";
-        }
-    }
-    print_values("wrinkles", rig["wrinkles"]);
-    print_values("hemoglobin", rig["hemoglobin"]);
-    std::cout << "  all hemoglobin times " << rig["hemoglobin_factor"].get<float>() << "\n";
-}
-
-Json describe(const Face& face, const FrameReport& report) {
-    Json json;
-    json["effects"] = Json::array();
-    for (const EffectReport& effect : report.effects) {
-        Json entry = {{"name", effect.effect}, {"on", effect.on}, {"reason", effect.reason}};
-        if (!effect.on) {
-            entry["omission"] = effect.omission == Omission::exact ? "exact" : "bounded";
-            if (effect.omission == Omission::bounded) {
-                entry["bound"] = effect.bound;
-                entry["bound_unit"] = effect.bound_unit;
-            }
-        }
-        json["effects"].push_back(std::move(entry));
-    }
-    json["passes"] = Json::array();
-    for (const PassReport& pass : report.passes) json["passes"].push_back({{"name", pass.name}, {"runs", pass.ran}});
-    json["active_targets"] = Json::array();
-    for (const ActiveTarget& active : report.active) {
-        json["active_targets"].push_back({{"name", face.targets[active.target].name}, {"weight", active.weight}});
-    }
-    json["targets"] = face.targets.size();
-    json["deltas_added"] = report.deltas_added;
-    json["triangles_drawn"] = report.triangles_drawn;
-    return json;
-}
-
-void print(const Json& json) {
-    const auto text = [](const Json& value) { return value.get<std::string>(); };
-    std::cout << "effects\n";
-    for (const Json& effect : json["effects"]) {
-        std::cout << "  " << text(effect["name"]) << ": " << (effect["on"].get<bool>() ? "on" : "left out")
-                  << ", since " << text(effect["reason"]);
-        if (effect.contains("omission")) {
-            std::cout << (effect["omission"] == "exact" ? " (exact: changes no bit)" : " (bounded)");
-        }
-        std::cout << "\n";
-    }
-    std::cout << "scale: " << json["scale"]["millimetres_a_unit"].get<float>() << " mm a unit, since "
-              << text(json["scale"]["told_by"]) << "\n";
-    std::cout << "passes\n";
-    for (const Json& pass : json["passes"]) {
-        std::cout << "  " << text(pass["name"]) << (pass["runs"].get<bool>() ? "" : ": culled, nothing reads it")
-                  << "\n";
-    }
-    std::cout << "active targets: " << json["active_targets"].size() << " of " << json["targets"] << ", "
-              << json["deltas_added"] << " deltas added, " << json["triangles_drawn"] << " triangles drawn\n";
-    for (const Json& target : json["active_targets"]) {
-        std::cout << "  " << text(target["name"]) << " = " << target["weight"].get<float>() << "\n";
-    }
-    print_rig(json["rig"]);
-}
-
-int explain(const Options& options) {
-    Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
-    if (!stage) return fail(stage.error());
-    Character& character = (*stage)->character;
-    constexpr std::uint32_t side = 64;  // the plan of a frame does not depend on its size
-    Result<Offscreen> offscreen = Offscreen::create((*stage)->device, side, side, Output::display_srgb);
-    if (!offscreen) return fail(offscreen.error());
-    View view = offscreen->view();
-    view.camera = character.framing(1).camera(1);
-    view.check_finite = options.check_finite;
-    const FrameReport& report = draw_alone(character, view);
-    if (const int found = report_not_finite(report); found != 0) return found;
-    Json json = describe(character.face(), report);
-    json["scale"] = describe_scale(character.state());
-    json["rig"] = describe_rig(character.rig(), character.pose());
-    if (options.json) {
-        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    if (as_json) {
+        std::cout << text_of(still->plan);
     } else {
-        print(json);
+        print_plan(still->plan);
     }
     return 0;
 }
 
 }  // namespace
 
-void add_explain(CLI::App& app, int& exit_status) {
+void add_explain(Command& program) {
+    struct Options {
+        StillOptions still;
+        bool json = false;
+    };
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("explain", "Say what the frame that render draws runs and leaves out, and why");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
-    options->pose.add_to(*command);
-    command->add_flag("--json", options->json, "Print JSON");
-    command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
-    command->callback([options, &exit_status] { exit_status = explain(*options); });
+    Command command =
+        program.subcommand("explain", "Say what the frame that render draws runs and leaves out, and why");
+    options->still.add_to(command);
+    command.option("-o,--output", &options->still.output,
+                   "The picture that render would write: .exr and .hdr hold radiance; nothing is written");
+    command.flag("--json", options->json, "Print JSON");
+    command.runs([options] { return explain(options->still, options->json); });
 }
 
 }  // namespace blush::tool

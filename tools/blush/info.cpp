@@ -6,7 +6,8 @@
 
 #include "rig/head/face_scale.h"
 #include "runtime/files/face_file.h"
-#include "tools/blush/options.h"
+#include "tools/blush/assets.h"
+#include "tools/blush/commands.h"
 
 namespace blush::tool {
 namespace {
@@ -129,32 +130,31 @@ void print(const Json& json) {
     for (const Json& note : json["not_understood"]) std::cout << "  " << text(note) << "\n";
 }
 
+int info(const std::string& face_name, bool as_json) {
+    const Result<Face> face = load_face(face_path(face_name));
+    if (!face) return fail(face.error());
+    const Json json = describe(*face);
+    if (as_json) {
+        // Names come from a file and may be no valid UTF-8: such bytes are replaced.
+        std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    } else {
+        print(json);
+    }
+    return 0;
+}
+
 }  // namespace
 
-void add_info(CLI::App& app, int& exit_status) {
+void add_info(Command& program) {
     struct Options {
         std::string face;
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("info", "Say what a face file holds: meshes, targets, materials, animations");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
-    command->add_flag("--json", options->json, "Print JSON");
-    command->callback([options, &exit_status] {
-        const Result<Face> face = load_face(face_path(options->face));
-        if (!face) {
-            exit_status = fail(face.error());
-            return;
-        }
-        const Json json = describe(*face);
-        if (options->json) {
-            // Names come from a file and may be no valid UTF-8: such bytes are replaced.
-            std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
-        } else {
-            print(json);
-        }
-    });
+    Command command = program.subcommand("info", "Say what a face file holds: meshes, targets, materials, animations");
+    command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").required();
+    command.flag("--json", options->json, "Print JSON");
+    command.runs([options] { return info(options->face, options->json); });
 }
 
 }  // namespace blush::tool

@@ -1,13 +1,15 @@
 /// blush kernel: the separable diffusion kernel, and its fit to a profile.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 
 #include "rig/light/diffusion_profile.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/kernel_fit.h"
-#include "tools/blush/options.h"
 
 namespace blush::tool {
 namespace {
@@ -112,24 +114,20 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_kernel(CLI::App& app, int& exit_status) {
+void add_kernel(Command& program) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("kernel", "Print the separable diffusion kernel, or fit it to a profile");
-    command->add_option("--fit", options->fit,
-                        "Fit to a profile: " + known_profiles() + ", or a file of millimetres,red,green,blue rows");
-    command->add_option("--samples", options->samples, "Taps")
-        ->check(CLI::IsMember({9, 17, 25, 33}))
-        ->capture_default_str();
-    command->add_option("--width", options->width, "Width; falloffs are found relative to it")
-        ->check(number_from(0.01, 1000))
-        ->capture_default_str();
-    command->add_option("--range", options->range_mm, "Millimetres within which the kernel is held to the profile")
-        ->check(number_from(0.01, 1000))
-        ->capture_default_str();
-    command->add_option("--steps", options->steps, "Cells along a side of the quarter plane")
-        ->check(CLI::Range(4, 200))
-        ->capture_default_str();
-    command->callback([options, &exit_status] { exit_status = run(*options); });
+    Command command = program.subcommand("kernel", "Print the separable diffusion kernel, or fit it to a profile");
+    command.option("--fit", &options->fit,
+                   "Fit to a profile: " + known_profiles() + ", or a file of millimetres,red,green,blue rows");
+    command.option("--samples", &options->samples, "Taps").one_of({"9", "17", "25", "33"}).shows_default();
+    command.option("--width", &options->width, "Width; falloffs are found relative to it")
+        .range(0.01, 1000)
+        .shows_default();
+    command.option("--range", &options->range_mm, "Millimetres within which the kernel is held to the profile")
+        .range(0.01, 1000)
+        .shows_default();
+    command.option("--steps", &options->steps, "Cells along a side of the quarter plane").range(4, 200).shows_default();
+    command.runs([options] { return run(*options); });
 }
 
 }  // namespace blush::tool

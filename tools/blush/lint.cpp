@@ -5,7 +5,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "tools/blush/options.h"
+#include "tools/blush/assets.h"
+#include "tools/blush/commands.h"
 
 namespace blush::tool {
 namespace {
@@ -57,22 +58,21 @@ int lint(const std::string& name, const std::string& face, bool as_json) {
 
 }  // namespace
 
-void add_lint(CLI::App& app, int& exit_status) {
+void add_lint(Command& program) {
     struct Options {
         std::string file, face;
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("lint", "Name everything odd about a file, and change nothing");
+    Command command = program.subcommand("lint", "Name everything odd about a file, and change nothing");
     command
-        ->add_option("FILE", options->file,
-                     "A face (.glb, .gltf, .obj, \"default\"), a rig (.rig.json) or a script (.lua)")
-        ->required();
-    command->add_option("--face", options->face,
-                        "The face that a rig or a script is for; without it, the one beside a rig, and one with all of "
-                        "ARKit's shapes for a script");
-    command->add_flag("--json", options->json, "Print JSON");
-    command->callback([options, &exit_status] { exit_status = lint(options->file, options->face, options->json); });
+        .option("FILE", &options->file, "A face (.glb, .gltf, .obj, \"default\"), a rig (.rig.json) or a script (.lua)")
+        .required();
+    command.option("--face", &options->face,
+                   "The face that a rig or a script is for; without it, the one beside a rig, and one with all of "
+                   "ARKit's shapes for a script");
+    command.flag("--json", options->json, "Print JSON");
+    command.runs([options] { return lint(options->file, options->face, options->json); });
 }
 
 }  // namespace blush::tool

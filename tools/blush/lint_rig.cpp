@@ -7,8 +7,8 @@
 #include "rig/names.h"
 #include "runtime/files/face_file.h"
 #include "runtime/files/rig_description_file.h"
+#include "tools/blush/assets.h"
 #include "tools/blush/lint.h"
-#include "tools/blush/options.h"
 
 namespace blush::tool {
 namespace {

@@ -3,8 +3,9 @@
 #include "runtime/script/lint_script.h"
 #include "rig/names.h"
 #include "runtime/files/face_file.h"
+#include "runtime/files/rig_description_file.h"
+#include "tools/blush/assets.h"
 #include "tools/blush/lint.h"
-#include "tools/blush/options.h"
 #include "tools/blush/performing.h"
 
 namespace blush::tool {
@@ -29,7 +30,7 @@ Result<Findings> lint_script_file(const std::filesystem::path& file, const std::
         if (!loaded) return loaded.error();
         face = *std::move(loaded);
     }
-    const Result<RigDescription> description = describe_rig(face, {});
+    const Result<RigDescription> description = find_rig_description(face);
     if (!description) return description.error();
     const Rig rig(face, *description);
     const Result<std::vector<ScriptFinding>> found = lint_script(file, rig, performances_for_script(face, file));

@@ -3,43 +3,42 @@
 #include <csignal>
 #include <iostream>
 
-#include "tools/blush/options.h"
+#include "tools/blush/commands.h"
+
+namespace blush::tool {
+
+int fail(const Error& error) {
+    std::cerr << "blush: " << error.message << "\n";
+    return bad_input;
+}
+
+}  // namespace blush::tool
 
 int main(int argc, char** argv) {
+    using namespace blush;
     // A closed pipe (`blush info FACE | head`, or a video encoder that gave up) is an error to report, not a death.
     std::signal(SIGPIPE, SIG_IGN);
 
-    CLI::App app("blush: faces that move, wrinkle and flush. Every command explains itself: blush COMMAND --help.");
-    app.require_subcommand(1);
-    app.set_version_flag("--version", BLUSH_VERSION);
-    int exit_status = 0;
-    blush::tool::add_info(app, exit_status);
-    blush::tool::add_import(app, exit_status);
-    blush::tool::add_evaluate(app, exit_status);
-    blush::tool::add_render(app, exit_status);
-    blush::tool::add_play(app, exit_status);
-    blush::tool::add_explain(app, exit_status);
-    blush::tool::add_kernel(app, exit_status);
-    blush::tool::add_accuracy(app, exit_status);
-    blush::tool::add_controls(app, exit_status);
-    blush::tool::add_lint(app, exit_status);
-    blush::tool::add_bake(app, exit_status);
-    blush::tool::add_antialias(app, exit_status);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        std::string reason = error.what();
-        const std::string command = argc > 1 ? argv[1] : "";
-        if (app.get_subcommands().empty() && !command.empty() && command.front() != '-') {
-            reason = "there is no command \"" + command + "\" (there are:";
-            for (const CLI::App* known : app.get_subcommands({})) reason += " " + known->get_name();
-            reason += ")";
-        }
-        return blush::tool::fail({reason});
-    }
+    CommandLine words(
+        "blush", "blush: faces that move, wrinkle and flush. Every command explains itself: blush COMMAND --help.");
+    words.set_version(BLUSH_VERSION);
+    Command program = words.command();
+    program.needs_a_subcommand();
+    tool::add_info(program);
+    tool::add_import(program);
+    tool::add_evaluate(program);
+    tool::add_render(program);
+    tool::add_play(program);
+    tool::add_explain(program);
+    tool::add_kernel(program);
+    tool::add_accuracy(program);
+    tool::add_controls(program);
+    tool::add_lint(program);
+    tool::add_bake(program);
+    tool::add_antialias(program);
+    const int exit_status = words.run(argc, argv);
     // What was printed is a result too: a full disk or a closed pipe lost some of it.
     std::cout.flush();
-    if (exit_status == 0 && !std::cout) return blush::tool::fail({"standard output: cannot be written"});
+    if (exit_status == 0 && !std::cout) return tool::fail({"standard output: cannot be written"});
     return exit_status;
 }

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "runtime/files/performance/performance_file.h"
+#include "tools/blush/assets.h"
 #include "tools/blush/playback.h"
 
 namespace blush::tool {
@@ -54,35 +55,34 @@ Result<Performance> performance_for_script(const Face& face, const fs::path& fol
 
 }  // namespace
 
-void PerformOptions::add_to(CLI::App& command) {
-    command.add_option("--script", script, "A Lua script (docs/scripting.md), or a shipped one by name");
-    command.add_option("--seed", seed, "Of what the script and life do by chance")->capture_default_str();
+void PerformOptions::add_to(Command& command) {
+    command.option("--script", &script, "A Lua script (docs/scripting.md), or a shipped one by name");
+    command.option("--seed", &seed, "Of what the script and life do by chance").shows_default();
     command
-        .add_option("--life", life,
-                    "Blinks, gaze, breath, small movements of the head: on, off, or talking; on with a script")
-        ->check(CLI::IsMember({"on", "off", "talking"}));
+        .option("--life", &life,
+                "Blinks, gaze, breath, small movements of the head: on, off, or talking; on with a script")
+        .one_of({"on", "off", "talking"});
     command
-        .add_option("--blood", blood,
-                    "When the blood of states such as blush comes and goes: at-once, slow, or slow:SPEED")
-        ->capture_default_str();
-    command.add_option("--event", events, "An event for the script, SECONDS=NAME; may be given several times");
+        .option("--blood", &blood,
+                "When the blood of states such as blush comes and goes: at-once, slow, or slow:SPEED")
+        .shows_default();
+    command.option("--event", &events, "An event for the script, SECONDS=NAME; may be given several times");
 }
 
-void PerformOptions::add_moment_to(CLI::App& command) {
+void PerformOptions::add_moment_to(Command& command) {
     add_to(command);
-    command.add_option("--at", at_seconds, "The moment to show of the script or of life, seconds")
-        ->check(number_from(0, 3600))
-        ->capture_default_str();
+    command.option("--at", &at_seconds, "The moment to show of the script or of life, seconds")
+        .range(0, 3600)
+        .shows_default();
 }
 
 Status perform_moment(const Face& face, const Rig& rig, const PerformOptions& options, std::span<float> controls,
-                      Pose& pose, const std::function<void(const BloodFlow&)>& blood) {
+                      Pose& pose) {
     Result<PerformerParts> parts = options.parts(face, rig, controls, std::nullopt);
     if (!parts) return parts.error();
     Performer performer(rig, *std::move(parts));
     if (Status played = performer.seek(options.at_seconds); !played) return played;
     performer.write(controls, pose);
-    if (performer.blood()) blood(*performer.blood());
     return Done{};
 }
 
@@ -149,12 +149,6 @@ Result<float> duration_of(Performer& performer, float endless_seconds) {
     if (!end) return end.error();
     const bool endless = !*end || (**end == 0 && !performer.still());
     return endless ? endless_seconds : static_cast<float>(**end);
-}
-
-Status Playback::seek(double time_seconds) {
-    Status played = performer_.seek(time_seconds);
-    performer_.write(character_->controls(), character_->pose());
-    return played;
 }
 
 }  // namespace blush::tool

@@ -1,15 +1,16 @@
 #pragma once
-/// What moves a face beside a performance: a script, life, slow blood, events; and all of it on a character.
+/// What moves a face beside a performance: a script, life, slow blood, events.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "runtime/character.h"
 #include "runtime/script/performer.h"
-#include "tools/blush/options.h"
+#include "tools/command_line/command_line.h"
 
 namespace blush::tool {
 
@@ -22,9 +23,9 @@ struct PerformOptions {
     std::uint64_t seed = 1;
     double at_seconds = 0;
 
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
     /// --at, for commands that show one moment.
-    void add_moment_to(CLI::App& command);
+    void add_moment_to(Command& command);
     /// Loads what the options name, for a face. `base` has one value for each control of the rig. Error: the script's,
     /// or an option that is not of its form.
     Result<PerformerParts> parts(const Face& face, const Rig& rig, std::span<const float> base,
@@ -32,9 +33,9 @@ struct PerformOptions {
 };
 
 /// Writes the controls of the moment that the options name; leaves them as they are where nothing moves the face.
-/// `blood`: is called with the slow blood of that moment, if there is any. Error: as parts(), or the script's.
+/// Error: as parts(), or the script's.
 Status perform_moment(const Face& face, const Rig& rig, const PerformOptions& options, std::span<float> controls,
-                      Pose& pose, const std::function<void(const BloodFlow&)>& blood);
+                      Pose& pose);
 
 /// The script that a user means: a file, or a shipped one by name. Error: neither, with what there is.
 Result<std::filesystem::path> find_script(const std::string& name);
@@ -51,26 +52,5 @@ Result<std::optional<BoundPerformance>> find_timeline(const Face& face, const Ri
 
 /// How long to play it: until all has come to its end, or for `endless_seconds`. Error: the script's.
 Result<float> duration_of(Performer& performer, float endless_seconds);
-
-/// A performer on a character.
-class Playback {
-public:
-    /// The character stays at its place as long as this lives.
-    Playback(Character& character, PerformerParts parts)
-        : character_(&character), performer_(character.rig(), std::move(parts)) {
-        character_->follow_blood(performer_.blood());
-    }
-    ~Playback() { character_->follow_blood(nullptr); }
-    Playback(const Playback&) = delete;
-    Playback& operator=(const Playback&) = delete;
-
-    Performer& performer() { return performer_; }
-    /// Sets the character to a time. Error: the script's.
-    Status seek(double time_seconds);
-
-private:
-    Character* character_;
-    Performer performer_;
-};
 
 }  // namespace blush::tool

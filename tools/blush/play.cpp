@@ -6,14 +6,14 @@
 #include <iostream>
 
 #include "runtime/files/output_file.h"
-#include "runtime/offscreen.h"
 #include "tools/blush/captions.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/interrupt.h"
 #include "tools/blush/new_folder.h"
-#include "tools/blush/options.h"
 #include "tools/blush/performing.h"
 #include "tools/blush/playback.h"
 #include "tools/blush/progress.h"
+#include "tools/blush/shot.h"
 #include "tools/blush/video.h"
 #include "tools/blush/viewer.h"
 
@@ -25,14 +25,13 @@ namespace fs = std::filesystem;
 constexpr double most_seconds = 1e6;  // eleven days: a slip of the finger
 
 struct Options {
-    std::string face, performance, output, contact_sheet, size = "720x720";
+    std::string face, performance, output, contact_sheet, first_frame;
     PoseOptions pose;
     PerformOptions perform;
-    LightOptions light;
+    ShotOptions shot{.size = "720x720", .light = {}};
     bool captions = true;
     double frames_a_second = 30;
-    float from_seconds = 0, to_seconds = -1, yaw_degrees = 0, pitch_degrees = 0;
-    bool check_finite = false;
+    float from_seconds = 0, to_seconds = -1;
     int viewer_frames = 0;
 };
 
@@ -74,39 +73,28 @@ std::optional<std::string> numbered(const std::string& pattern, std::size_t numb
 /// Draws the frames of a range one after the other.
 class FrameSource {
 public:
-    FrameSource(Stage& stage, Playback& playback, Offscreen& offscreen, const Options& options)
-        : stage_(stage), playback_(playback), offscreen_(offscreen), view_(offscreen.view()) {
-        const float aspect = static_cast<float>(view_.width) / static_cast<float>(view_.height);
-        OrbitCamera orbit = stage.character.framing(aspect);
-        orbit.yaw_radians = glm::radians(options.yaw_degrees);
-        orbit.pitch_radians = glm::radians(options.pitch_degrees);
-        view_.camera = orbit.camera(aspect);
-        view_.check_finite = options.check_finite;
-        frames_a_second_ = options.frames_a_second;
-        if (options.captions && view_.output == Output::display_srgb) captions_.emplace(view_.height);
+    FrameSource(Playback& playback, Shot& shot, const Options& options)
+        : playback_(playback), shot_(shot), frames_a_second_(options.frames_a_second) {
+        if (options.captions && shot.output() == Output::display_srgb) captions_.emplace(shot.size().height);
     }
-    /// Of the frames to come; stays alive as long as they are drawn. Null: three lights of a portrait.
-    void light_with(const Lighting* lighting) { view_.lighting = lighting; }
     /// alone: not the frame after the one drawn before.
     Result<Image> frame_at(double time_seconds, bool alone) {
         if (Status played = playback_.seek(time_seconds); !played) return played.error();
-        view_.time_seconds = time_seconds;
-        view_.frame_number = static_cast<std::uint32_t>(std::llround(time_seconds * frames_a_second_));
-        const FrameReport& report = alone ? draw_alone(stage_.character, view_) : stage_.character.draw(view_);
+        const auto number = static_cast<std::uint32_t>(std::llround(time_seconds * frames_a_second_));
+        const FrameReport report = shot_.draw(time_seconds, number, alone);
         if (report.not_finite) {
             return Error{"--check-finite: at " + std::to_string(time_seconds) + " s " + report.not_finite->sentence()};
         }
-        Image image = offscreen_.read();
+        Image image = shot_.read();
         if (captions_) captions_->draw(playback_.performer().caption(), image);
         return image;
     }
+    Size size() const { return shot_.size(); }
 
 private:
-    Stage& stage_;
     Playback& playback_;
-    Offscreen& offscreen_;
-    View view_;
-    double frames_a_second_ = 30;
+    Shot& shot_;
+    double frames_a_second_;
     std::optional<Captions> captions_;
 };
 
@@ -133,12 +121,21 @@ Status write_frames(FrameSource& source, const Options& options, const Range& ra
             [&](std::size_t f, const Image& image) { return write_image(*numbered(options.output, f), image); });
     }
     return write_beside(options.output, [&](const fs::path& beside) -> Status {
-        const Result<Size> size = parse_size(options.size);
-        Result<VideoWriter> writer = VideoWriter::start(beside, size->width, size->height, options.frames_a_second);
+        const Size size = source.size();
+        Result<VideoWriter> writer = VideoWriter::start(beside, size.width, size.height, options.frames_a_second);
         if (!writer) return writer.error();
         Status written = each([&](std::size_t, const Image& image) { return writer->add(image); });
         return written ? writer->finish() : written;
     });
+}
+
+/// Says at once that it is there: the other frames may take minutes.
+Status write_first_frame(FrameSource& source, const Options& options, const Range& range) {
+    const Result<Image> image = source.frame_at(range.from_seconds, true);
+    if (!image) return image.error();
+    if (Status written = write_image(options.first_frame, *image); !written) return written;
+    std::cout << options.first_frame << ": the first frame" << std::endl;
+    return Done{};
 }
 
 constexpr std::uint32_t sheet_columns = 4, sheet_rows = 2;
@@ -146,14 +143,15 @@ constexpr std::uint32_t sheet_columns = 4, sheet_rows = 2;
 /// Checks before anything is drawn that a contact sheet can be written.
 Status check_contact_sheet(const Options& options, Size frame) {
     const std::string place = "--contact-sheet " + options.contact_sheet;
-    if (fs::path(options.output).extension() == ".exr") {
-        return Error{"--contact-sheet goes with pictures for a display, not with .exr"};
+    if (output_of(options.output) == Output::linear_hdr) {
+        return Error{"--contact-sheet goes with pictures for a display, not with " +
+                     fs::path(options.output).extension().string()};
     }
     if (fs::path(options.contact_sheet).extension() != ".png") return Error{place + ": a contact sheet is a .png"};
     constexpr std::uint32_t largest_side = 16'384;  // as of a frame
     if (frame.width > largest_side / sheet_columns || frame.height > largest_side / sheet_rows) {
         return Error{place + ": its moments may have " + std::to_string(largest_side / sheet_columns) + "x" +
-                     std::to_string(largest_side / sheet_rows) + " pixels at most; --size says " + options.size};
+                     std::to_string(largest_side / sheet_rows) + " pixels at most; --size says " + options.shot.size};
     }
     std::error_code failed;
     const fs::path folder = fs::path(options.contact_sheet).parent_path();
@@ -215,11 +213,11 @@ Status settle_output(Options& options, NewFolder& new_folder) {
 }
 
 int play_to_files(Options options) {
-    const Result<Size> size = parse_size(options.size);
+    const Result<Size> size = parse_size(options.shot.size);
     if (!size) return fail(size.error());
     Result<std::unique_ptr<Stage>> stage = make_stage(options.face, options.pose);
     if (!stage) return fail(stage.error());
-    Character& character = (*stage)->character;
+    Portrait& character = (*stage)->character;
     const Result<std::optional<BoundPerformance>> timeline =
         find_timeline(character.face(), character.rig(), options.performance, options.perform);
     if (!timeline) return fail(timeline.error());
@@ -234,22 +232,25 @@ int play_to_files(Options options) {
     if (!options.contact_sheet.empty()) {
         if (Status good = check_contact_sheet(options, *size); !good) return fail(good.error());
     }
+    const Output output = output_of(options.output.empty() ? options.first_frame : options.output);
+    if (!options.first_frame.empty() && output_of(options.first_frame) != output) {
+        return fail({"--first-frame " + options.first_frame + ": -o " + options.output +
+                     " holds other values; both may be .exr, or neither"});
+    }
     NewFolder new_folder;
     if (!options.output.empty()) {
         if (Status settled = settle_output(options, new_folder); !settled) return fail(settled.error());
     }
 
-    const bool linear = fs::path(options.output).extension() == ".exr";
-    Result<Offscreen> offscreen = Offscreen::create((*stage)->device, size->width, size->height,
-                                                    linear ? Output::linear_hdr : Output::display_srgb);
-    if (!offscreen) return fail(offscreen.error());
-    FrameSource source(**stage, playback, *offscreen, options);
-    const Result<std::optional<Lighting>> lighting = options.light.lighting(character);
-    if (!lighting) return fail(lighting.error());
-    if (*lighting) source.light_with(&**lighting);
+    Result<Shot> shot = Shot::make(**stage, *size, options.shot, output);
+    if (!shot) return fail(shot.error());
+    FrameSource source(playback, *shot, options);
+    if (!options.first_frame.empty()) {
+        if (Status written = write_first_frame(source, options, *range); !written) return fail(written.error());
+    }
     if (!options.output.empty()) {
         if (Status written = write_frames(source, options, *range); !written) return fail(written.error());
-        std::cout << options.output << ": " << range->frames << " frames of " << options.size << "\n";
+        std::cout << options.output << ": " << range->frames << " frames of " << options.shot.size << "\n";
     }
     if (!options.contact_sheet.empty()) {
         if (Status written = write_contact_sheet(source, options, *range); !written) return fail(written.error());
@@ -260,45 +261,38 @@ int play_to_files(Options options) {
 
 }  // namespace
 
-void add_play(CLI::App& app, int& exit_status) {
+void add_play(Command& program) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("play", "Play a performance in a window, or into files with -o");
-    command->add_option("FACE", options->face, "A .glb, .gltf or .obj file, or \"default\"")->required();
-    command->add_option("--performance", options->performance,
-                        "A Live Link Face .csv, a .json (docs/performance_format.md), an animation of the file or a "
-                        "shipped one by name; without it, the file's own animations");
-    command->add_option("--fps", options->frames_a_second, "Frames a second")
-        ->check(number_from(0.01, 1000))
-        ->capture_default_str();
-    command->add_option("--from", options->from_seconds, "Start, seconds")->check(number_from(0, most_seconds));
-    command->add_option("--to", options->to_seconds, "End, seconds")->check(number_from(0, most_seconds));
-    command->add_option("--size", options->size, "Width and height in pixels")->capture_default_str();
-    command->add_option("--yaw", options->yaw_degrees, "Camera around the head, degrees; positive to the face's left")
-        ->check(number_from(-360, 360));
-    command->add_option("--pitch", options->pitch_degrees, "Camera up, degrees")->check(number_from(-90, 90));
-    options->pose.add_to(*command);
-    options->perform.add_to(*command);
-    options->light.add_to(*command);
-    command->add_flag("!--no-captions", options->captions, "Leave the words of the performance out of the picture");
-    command->add_option("-o,--output", options->output, "out.mp4, out.gif, frames/%05d.png or frames/%05d.exr");
-    command->add_option("--contact-sheet", options->contact_sheet, "A picture of eight moments");
-    command->add_flag("--check-finite", options->check_finite, "Scan what every pass writes for NaN and infinities");
-    command->add_option("--viewer-frames", options->viewer_frames, "Close the window after that many frames")
-        ->group("");
-    command->callback([options, &exit_status] {
-        if (!options->output.empty() || !options->contact_sheet.empty()) {
-            exit_status = play_to_files(*options);
-            return;
+    Command command = program.subcommand("play", "Play a performance in a window, or into files with -o");
+    command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").required();
+    command.option("--performance", &options->performance,
+                   "A Live Link Face .csv, a .json (docs/performance_format.md), an animation of the file or a "
+                   "shipped one by name; without it, the file's own animations");
+    command.option("--fps", &options->frames_a_second, "Frames a second").range(0.01, 1000).shows_default();
+    command.option("--from", &options->from_seconds, "Start, seconds").range(0, most_seconds);
+    command.option("--to", &options->to_seconds, "End, seconds").range(0, most_seconds);
+    options->pose.add_to(command);
+    options->perform.add_to(command);
+    options->shot.add_to(command);
+    command.flag("!--no-captions", options->captions, "Leave the words of the performance out of the picture");
+    command.option("-o,--output", &options->output, "out.mp4, out.gif, frames/%05d.png or frames/%05d.exr");
+    command.option("--contact-sheet", &options->contact_sheet, "A picture of eight moments");
+    command.option("--first-frame", &options->first_frame, "A picture of the first frame, written before the others");
+    command.option("--viewer-frames", &options->viewer_frames, "Close the window after that many frames").hidden();
+    command.runs([options] {
+        if (!options->output.empty() || !options->contact_sheet.empty() || !options->first_frame.empty()) {
+            return play_to_files(*options);
         }
-        const Result<Size> size = parse_size(options->size);
-        if (!size) {
-            exit_status = fail(size.error());
-            return;
-        }
-        exit_status =
-            run_viewer({options->face, options->performance, options->pose, options->perform, options->light,
-                        options->captions, size->width, size->height, options->from_seconds, options->to_seconds,
-                        options->frames_a_second, options->check_finite, options->viewer_frames});
+        return run_viewer({.face = options->face,
+                           .performance = options->performance,
+                           .pose = options->pose,
+                           .perform = options->perform,
+                           .shot = options->shot,
+                           .captions = options->captions,
+                           .from_seconds = options->from_seconds,
+                           .to_seconds = options->to_seconds,
+                           .frames_a_second = options->frames_a_second,
+                           .frames = options->viewer_frames});
     });
 }
 

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "runtime/files/performance/performance_file.h"
-#include "tools/blush/options.h"
+#include "tools/blush/assets.h"
 
 namespace blush::tool {
 namespace {

@@ -5,9 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "rig/face.h"
 #include "rig/motion/performance.h"
-#include "runtime/character.h"
 
 namespace blush::tool {
 

@@ -10,9 +10,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "runtime/files/face_file.h"
 #include "runtime/files/output_file.h"
 #include "runtime/offscreen.h"
+#include "tools/blush/commands.h"
 #include "tools/blush/playback.h"
 #include "tools/blush/viewer_panel.h"
 #include "tools/blush/viewer_window.h"
@@ -36,9 +36,10 @@ fs::path free_picture_name(const std::string& name) {
 /// The loop, and what it draws.
 class Viewer {
 public:
-    Viewer(const ViewerOptions& options, Window& window, Panel& panel, Device device, Character& character,
+    Viewer(const ViewerOptions& options, Size picture, Window& window, Panel& panel, Device device, Portrait& character,
            Playback& playback, PlaybackClock clock, std::optional<Lighting> lighting)
         : options_(options),
+          picture_(picture),
           window_(window),
           panel_(panel),
           device_(std::move(device)),
@@ -54,7 +55,7 @@ public:
 
     int run() {
         const float panel_width = panel_.width();
-        window_.show({options_.width + static_cast<std::uint32_t>(panel_width), options_.height});
+        window_.show({picture_.width + static_cast<std::uint32_t>(panel_width), picture_.height});
         const bool counted = options_.frames > 0;
         int frames = 0;
         double last_seconds = glfwGetTime();
@@ -97,7 +98,7 @@ private:
     /// that part.
     struct Place {
         Size free;
-        View view;
+        ViewFrame view;
     };
     Place place(Size pixels) {
         const auto panel_pixels = static_cast<std::uint32_t>(panel_.width() * window_.pixels_a_unit());
@@ -106,22 +107,21 @@ private:
         place.free = {pixels.width - taken, pixels.height};
         place.view.width = pixels.width;
         place.view.height = pixels.height;
-        place.view.check_finite = options_.check_finite;
+        options_.shot.apply(place.view);
         place.view.timed = panel_.passes_timed();
         if (lighting_) place.view.lighting = &*lighting_;
         place.view.time_seconds = state_.clock.time_seconds;
         place.view.frame_number =
             static_cast<std::uint32_t>(std::max(state_.clock.time_seconds * options_.frames_a_second, 0.0));
-        window_.home = character_.framing(aspect_of(place.free));
+        window_.home = options_.shot.camera(character_, place.free.aspect());
         if (state_.camera_is_home) state_.camera = window_.home;
-        place.view.camera = state_.camera.camera(aspect_of(pixels));
+        place.view.camera = state_.camera.camera(pixels.aspect());
         // Clip coordinates reach from -1 to 1, so that a shift of `taken` / 2 pixels is this:
         const float shift = static_cast<float>(taken) / static_cast<float>(pixels.width);
         place.view.camera.clip_from_view =
             glm::translate(glm::mat4(1), glm::vec3(shift, 0, 0)) * place.view.camera.clip_from_view;
         return place;
     }
-    static float aspect_of(Size size) { return static_cast<float>(size.width) / static_cast<float>(size.height); }
 
     int frame() {
         const double start_seconds = glfwGetTime();
@@ -137,7 +137,7 @@ private:
         here.view.cut = passed_seconds < 0 || passed_seconds > longest_frame_seconds;
         drawn_time_seconds_ = state_.clock.time_seconds;
         const FrameReport& report = character_.draw(here.view);
-        if (const int found = report_not_finite(report); found != 0) return found;
+        if (Status good = finite(report); !good) return fail(good.error());
         const std::string_view words = options_.captions ? playback_.performer().caption() : std::string_view();
         panel_.draw({character_, report, frame_milliseconds_, words}, state_);
         if (state_.screenshot_wanted) take_screenshot(here.free);
@@ -162,8 +162,9 @@ private:
             fail(offscreen.error());
             return;
         }
-        View view = offscreen->view();
-        view.camera = state_.camera.camera(aspect_of(size));
+        ViewFrame view = offscreen->view();
+        options_.shot.apply(view);
+        view.camera = state_.camera.camera(size.aspect());
         if (lighting_) view.lighting = &*lighting_;
         view.time_seconds = state_.clock.time_seconds;
         draw_alone(character_, view);
@@ -189,10 +190,11 @@ private:
     }
 
     const ViewerOptions& options_;
+    Size picture_;  // beside the panel, window coordinates
     Window& window_;
     Panel& panel_;
     Device device_;
-    Character& character_;
+    Portrait& character_;
     Playback& playback_;
     std::optional<Lighting> lighting_;  // of the options; else three lights of a portrait
     std::string name_, performed_, title_, complaint_;
@@ -207,8 +209,9 @@ private:
 
 namespace {
 
-Result<PlaybackClock> clock_of(const Face& face, const RigDescription& description, const ViewerOptions& options) {
-    const Rig rig(face, description);
+Result<PlaybackClock> clock_of(const FaceFiles& files, const ViewerOptions& options) {
+    const Face& face = files.face;
+    const Rig rig(face, files.rig);
     std::optional<BoundPerformance> timeline;
     if (!options.performance.empty() || options.perform.script.empty()) {
         Result<Performance> performance = find_performance(face, options.performance);
@@ -235,26 +238,19 @@ int run_viewer(const ViewerOptions& options) {
             {"there is no display for a window (DISPLAY and WAYLAND_DISPLAY are not set); -o plays into files"});
     }
     // All input first: a bad file should not flash a window.
-    Result<Face> face = load_face(face_path(options.face));
-    if (!face) return fail(face.error());
-    const Result<RigDescription> description = describe_rig(*face, options.pose);
-    if (!description) return fail(description.error());
-    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face->path));
-    if (!appearance) return fail(appearance.error());
-    const Result<PlaybackClock> clock = clock_of(*face, *description, options);
+    const Result<Size> size = parse_size(options.shot.size);
+    if (!size) return fail(size.error());
+    Result<FaceFiles> files = load_face_files(options.face, options.pose.rig_file);
+    if (!files) return fail(files.error());
+    const Result<PlaybackClock> clock = clock_of(*files, options);
     if (!clock) return fail(clock.error());
 
     Result<std::unique_ptr<Window>> window = Window::open("blush");
     if (!window) return fail(window.error());
     Result<Device> device = Device::adopt_current();
     if (!device) return fail(device.error());
-    Result<Character> character = Character::create(*device, *std::move(face), *description);
+    Result<Portrait> character = make_character(*device, *std::move(files), options.pose);
     if (!character) return fail(character.error());
-    character->set_appearance(*std::move(appearance));
-    if (Status set = options.pose.apply(character->face(), character->rig(), character->controls()); !set) {
-        return fail(set.error());
-    }
-    if (Status set = options.pose.apply_settings(*character); !set) return fail(set.error());
     const Result<std::optional<BoundPerformance>> timeline =
         find_timeline(character->face(), character->rig(), options.performance, options.perform);
     if (!timeline) return fail(timeline.error());
@@ -262,11 +258,12 @@ int run_viewer(const ViewerOptions& options) {
         options.perform.parts(character->face(), character->rig(), character->controls(), *timeline);
     if (!parts) return fail(parts.error());
     Playback playback(*character, *std::move(parts));
-    Result<std::optional<Lighting>> lighting = options.light.lighting(*character);
+    Result<std::optional<Lighting>> lighting =
+        options.shot.light.lighting(character->face(), millimetres_a_unit(*character));
     if (!lighting) return fail(lighting.error());
     Result<std::unique_ptr<Panel>> panel = Panel::create((*window)->handle(), (*window)->text_scale());
     if (!panel) return fail(panel.error());
-    return Viewer(options, **window, **panel, *device, *character, playback, *clock, *std::move(lighting)).run();
+    return Viewer(options, *size, **window, **panel, *device, *character, playback, *clock, *std::move(lighting)).run();
 }
 
 }  // namespace blush::tool

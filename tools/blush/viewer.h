@@ -1,8 +1,10 @@
 #pragma once
 /// The window of `blush play`: orbit, zoom, pause, scrub, step, speed, screenshot.
 
-#include "tools/blush/options.h"
+#include <string>
+
 #include "tools/blush/performing.h"
+#include "tools/blush/shot.h"
 
 namespace blush::tool {
 
@@ -11,13 +13,11 @@ struct ViewerOptions {
     std::string performance;  ///< as find_performance() takes it
     PoseOptions pose;
     PerformOptions perform;
-    LightOptions light;
-    bool captions = true;                     ///< the performance's words, over the picture
-    std::uint32_t width = 960, height = 960;  ///< of the picture beside the panel, window coordinates
+    ShotOptions shot;      ///< size: of the picture beside the panel, window coordinates
+    bool captions = true;  ///< the performance's words, over the picture
     float from_seconds = 0;
     float to_seconds = -1;        ///< negative: to the end
     double frames_a_second = 30;  ///< of single steps
-    bool check_finite = false;
     /// Ends by itself after that many frames (for tests); 0: when the user closes the window.
     int frames = 0;
 };

@@ -66,7 +66,7 @@ void drag(Drag kind, double right, double down, double view_height, ViewerState&
     const glm::vec3 right_world(cos_yaw, 0, -sin_yaw);
     const glm::vec3 up_world(-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch);
     const float height_world = 2 * camera.distance * std::tan(0.5F * camera.vertical_field_of_view_radians);
-    camera.target_world += height_world * (along * up_world - across * right_world);
+    camera.target_world += glm::dvec3(height_world * (along * up_world - across * right_world));
 }
 
 void zoom(double notches, const OrbitCamera& home, ViewerState& state) {

@@ -162,7 +162,7 @@ void Panel::draw_passes(const FrameReport& report) {
     }
 }
 
-void Panel::draw_controls(Character& character, ViewerState& state) {
+void Panel::draw_controls(Portrait& character, ViewerState& state) {
     if (!ImGui::CollapsingHeader("Controls", ImGuiTreeNodeFlags_DefaultOpen)) return;
     const std::span<const std::string> names = character.rig().control_names();
     ImGui::SetNextItemWidth(-1);
@@ -188,7 +188,7 @@ void Panel::draw_controls(Character& character, ViewerState& state) {
     ImGui::EndChild();
 }
 
-void Panel::draw_control(std::uint32_t control, Character& character, ViewerState& state) {
+void Panel::draw_control(std::uint32_t control, Portrait& character, ViewerState& state) {
     // Control and a click take a number beyond the usual range.
     const ControlInfo& info = character.rig().info(static_cast<ControlId>(control));
     std::optional<float>& held = state.held_controls[control];

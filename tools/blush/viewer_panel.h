@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/character.h"
+#include "runtime/measure/portrait.h"
 #include "tools/blush/viewer_input.h"
 
 struct GLFWwindow;
@@ -28,7 +28,7 @@ public:
     float width() const { return width_; }
 
     struct Shown {
-        Character& character;
+        Portrait& character;
         const FrameReport& report;
         float frame_milliseconds;
         std::string_view caption;  ///< words to be seen; may be empty
@@ -37,15 +37,15 @@ public:
     /// the panel is hidden.
     void draw(const Shown& shown, ViewerState& state);
 
-    /// The user wants the time of each pass (View::timed).
+    /// The user wants the time of each pass (ViewFrame::timed).
     bool passes_timed() const { return passes_timed_; }
 
 private:
     explicit Panel(float text_scale);
     void draw_caption(std::string_view caption, bool panel_shown) const;
     void draw_clock(PlaybackClock& clock);
-    void draw_controls(Character& character, ViewerState& state);
-    void draw_control(std::uint32_t control, Character& character, ViewerState& state);
+    void draw_controls(Portrait& character, ViewerState& state);
+    void draw_control(std::uint32_t control, Portrait& character, ViewerState& state);
     void draw_effects(const FrameReport& report);
     void draw_passes(const FrameReport& report);
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "tools/blush/options.h"
+#include "tools/blush/picture_size.h"
 #include "tools/blush/viewer_input.h"
 
 struct GLFWwindow;

@@ -42,19 +42,19 @@ void print_list(const fs::path& preset_folder) {
 
 }  // namespace
 
-void FaceCommand::add_to(CLI::App& command) {
-    command.add_option("-o,--output", output, "The .glb file to write");
-    command.add_option("--preset", preset, "A shipped person by name, or a .json file (docs/default_face.md)");
-    command.add_option("--set", sets, "A parameter and its value, such as jaw_width=+1; may be given several times")
-        ->delimiter(',');
-    command.add_option("--vertices", vertices, "Vertices of the skin, roughly")
-        ->check(CLI::Range(least_vertices, most_vertices))
-        ->capture_default_str();
-    command.add_option("--texture-size", texture_side, "Texels of a side of the skin's maps")
-        ->check(CLI::Range(64, 8'192))
-        ->capture_default_str();
-    command.add_flag("--maps", maps, "Also write melanin, hemoglobin and what expressions do to it, beside the file");
-    command.add_flag("--list", list, "Print presets and parameters with their ranges, and write nothing");
+void FaceCommand::add_to(Command& command) {
+    command.option("-o,--output", &output, "The .glb file to write");
+    command.option("--preset", &preset, "A shipped person by name, or a .json file (docs/default_face.md)");
+    command.option("--set", &sets, "A parameter and its value, such as jaw_width=+1; may be given several times")
+        .split_at_commas();
+    command.option("--vertices", &vertices, "Vertices of the skin, roughly")
+        .range(double{least_vertices}, double{most_vertices})
+        .shows_default();
+    command.option("--texture-size", &texture_side, "Texels of a side of the skin's maps")
+        .range(64, 8'192)
+        .shows_default();
+    command.flag("--maps", maps, "Also write melanin, hemoglobin and what expressions do to it, beside the file");
+    command.flag("--list", list, "Print presets and parameters with their ranges, and write nothing");
 }
 
 Result<Person> FaceCommand::person(const fs::path& preset_folder) const {

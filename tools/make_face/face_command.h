@@ -1,12 +1,11 @@
 #pragma once
 /// The options that make_face and `blush bake face` share.
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "tools/command_line/command_line.h"
 #include "tools/make_face/build_face.h"
 
 namespace blush::make_face {
@@ -19,7 +18,7 @@ struct FaceCommand {
     bool maps = false;
     bool list = false;
 
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
     /// Writes the file, or prints the list. `preset_folder`: where named presets stand, beside the hemoglobin patterns.
     Status run(const std::filesystem::path& preset_folder) const;
 

@@ -6,25 +6,28 @@
 
 #include "tools/make_face/face_command.h"
 
+namespace {
+
+int fail(const char* sentence) {
+    std::fprintf(stderr, "make_face: %s\n", sentence);
+    return blush::bad_input;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) try {
-    CLI::App app{"Writes the default face as a binary glTF file: 52 ARKit targets, eyes, teeth and tongue."};
-    blush::make_face::FaceCommand command;
-    command.add_to(app);
+    blush::CommandLine words(
+        "make_face", "Writes the default face as a binary glTF file: 52 ARKit targets, eyes, teeth and tongue.");
+    blush::Command command = words.command();
+    blush::make_face::FaceCommand face;
+    face.add_to(command);
     std::string presets = "assets/presets";
-    app.add_option("--presets", presets, "Folder of the presets")->capture_default_str();
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // --help
-        std::fprintf(stderr, "make_face: %s\n", error.what());
-        return 2;
-    }
-    if (const blush::Status status = command.run(presets); !status) {
-        std::fprintf(stderr, "make_face: %s\n", status.error().message.c_str());
-        return 2;
-    }
-    return 0;
+    command.option("--presets", &presets, "Folder of the presets").shows_default();
+    command.runs([&] {
+        const blush::Status made = face.run(presets);
+        return made ? 0 : fail(made.error().message.c_str());
+    });
+    return words.run(argc, argv);
 } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_face: %s\n", error.what());
-    return 2;
+    return fail(error.what());
 }

@@ -274,9 +274,9 @@ private:
                 }
             } else {
                 const Transform& t = source.rest;
-                const glm::quat& q = t.rotation;
+                const Quat& q = t.rotation;
                 if (t.translation != glm::vec3(0)) node.translation = doubles(t.translation);
-                if (q != glm::quat(1, 0, 0, 0))
+                if (q != Quat{})
                     node.rotation = {static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z),
                                      static_cast<double>(q.w)};
                 if (t.scale != glm::vec3(1)) node.scale = doubles(t.scale);

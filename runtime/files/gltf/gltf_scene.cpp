@@ -67,8 +67,8 @@ void read_transform(const tinygltf::Node& source, const std::string& place, Node
         const std::vector<double>& q = source.rotation;
         const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
         if (!(length > 0)) refuse(place + ".rotation", "it has length zero");
-        node.rest.rotation =
-            glm::quat(number(q[3] / length), number(q[0] / length), number(q[1] / length), number(q[2] / length));
+        node.rest.rotation = {number(q[3] / length), number(q[0] / length), number(q[1] / length),
+                              number(q[2] / length)};
     }
 }
 

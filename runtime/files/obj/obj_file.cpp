@@ -17,7 +17,24 @@
 namespace blush::load {
 namespace {
 
-/// OpenMesh's reader and its message streams are objects of the whole program.
+/// A message stream of OpenMesh's belongs to the whole program, so to the host too: silent here, then as it was.
+class Silence {
+public:
+    explicit Silence(OpenMesh::mostream& stream) : stream_(stream), was_enabled_(stream.is_enabled()) {
+        stream_.disable();
+    }
+    Silence(const Silence&) = delete;
+    Silence& operator=(const Silence&) = delete;
+    ~Silence() {
+        if (was_enabled_) stream_.enable();
+    }
+
+private:
+    OpenMesh::mostream& stream_;
+    bool was_enabled_;
+};
+
+/// OpenMesh's reader is one object for the whole program as well.
 ObjImporter import(const std::string& text) {
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
@@ -25,12 +42,8 @@ ObjImporter import(const std::string& text) {
     OpenMesh::IO::Options options = OpenMesh::IO::Options::FaceTexCoord;
     options += OpenMesh::IO::Options::VertexNormal;
     std::istringstream stream(text);
-    omerr().disable();
-    omlog().disable();
-    const bool read = OpenMesh::IO::OBJReader().read(stream, importer, options);
-    omerr().enable();
-    omlog().enable();
-    if (!read) refuse("", "OpenMesh cannot read the file");
+    const Silence errors(omerr()), log(omlog());
+    if (!OpenMesh::IO::OBJReader().read(stream, importer, options)) refuse("", "OpenMesh cannot read the file");
     return importer;
 }
 

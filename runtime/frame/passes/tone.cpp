@@ -7,34 +7,34 @@
 
 namespace blush {
 
-void declare_tone(CharacterState& state, ResourceId to) {
-    const auto tone = [&state, from = state.resources.scene_color, to](const FrameGraph& graph) {
-        bind_output(state, graph, to);
-        glUseProgram(state.tone_program.name());
+void declare_tone(FrameState& frame, ResourceId to) {
+    const auto tone = [&frame, from = frame.resources.scene_color, to](const FrameGraph& graph) {
+        bind_output(frame, graph, to);
+        glUseProgram(frame.common->tone.name());
         glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[from].handle);
         glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
-        const bool metered = state.on(exposure_effect);
-        if (metered) glBindTextureUnit(1, graph[state.resources.log2_exposure].handle);
+        const bool metered = frame.on(exposure_effect);
+        if (metered) glBindTextureUnit(1, graph[frame.resources.log2_exposure].handle);
         // Without metering, the stops that the exposure is set to; with it they are in what was metered.
-        const double stops = metered ? 0 : state.settings.number(exposure_effect.name, "stops");
-        glUniform1f(0, state.view->exposure * static_cast<float>(std::exp2(stops)));
+        const double stops = metered ? 0 : frame.settings.number(exposure_effect.name, "stops");
+        glUniform1f(0, frame.view->exposure * static_cast<float>(std::exp2(stops)));
         glUniform1i(1, metered ? 1 : 0);
-        draw_screen(state);
+        draw_screen(frame);
     };
-    state.graph.pass("tone", tone).reads(state.resources.scene_color).writes(to);
-    if (state.on(exposure_effect)) state.graph.reads(state.resources.log2_exposure);
+    frame.graph.pass("tone", tone).reads(frame.resources.scene_color).writes(to);
+    if (frame.on(exposure_effect)) frame.graph.reads(frame.resources.log2_exposure);
 }
 
-void declare_copy(CharacterState& state, ResourceId from, ResourceId to) {
-    const auto copy = [&state, from, to](const FrameGraph& graph) {
-        const auto width = static_cast<GLint>(state.view->width), height = static_cast<GLint>(state.view->height);
-        const GLuint source = state.resolved_framebuffer.name();
+void declare_copy(FrameState& frame, ResourceId from, ResourceId to) {
+    const auto copy = [&frame, from, to](const FrameGraph& graph) {
+        const auto width = static_cast<GLint>(frame.view->width), height = static_cast<GLint>(frame.view->height);
+        const GLuint source = frame.common->resolved.name();
         glNamedFramebufferTexture(source, GL_COLOR_ATTACHMENT0, graph[from].handle, 0);
-        bind_output(state, graph, to);
+        bind_output(frame, graph, to);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
         glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     };
-    state.graph.pass("copy", copy).reads(from).writes(to);
+    frame.graph.pass("copy", copy).reads(from).writes(to);
 }
 
 }  // namespace blush

@@ -277,7 +277,7 @@ TEST_F(AntialiasPassesTest, EqualTheirTwinsOnRenderedFaces) {
     const gl::StateGuard guard;
     test::FaceOptions options;
     options.targets = 4;
-    Character character = make_character(test::make_face(options));
+    Portrait character = make_character(test::make_face(options));
     const Offscreen offscreen = make_offscreen(96, 96);
     for (const float weight : {0.0F, 1.0F}) {
         test::set_weights(character, {weight, 0, weight, 0});
@@ -329,10 +329,10 @@ TEST_F(AntialiasPassesTest, EqualTheirTwinsOnFramesOfRealHeads) {
                              "ict-facekit/ict_expr.tar.xz", "makehuman"}) {
         std::optional<Face> face = real_head(name);
         ASSERT_TRUE(face) << faces / name;
-        Character character = make_character(*std::move(face));
+        Portrait character = make_character(*std::move(face));
         ASSERT_TRUE(character.set("antialiasing.mode", "none"));
         for (const auto& [yaw, pitch] : {std::pair(0.0F, 0.0F), {0.9F, 0.1F}, {-0.4F, -0.5F}}) {
-            View view = test::framed_view(character, offscreen);
+            ViewFrame view = test::framed_view(character, offscreen);
             OrbitCamera camera = character.framing(1);
             camera.yaw_radians = yaw;
             camera.pitch_radians = pitch;

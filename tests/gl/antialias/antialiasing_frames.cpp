@@ -7,8 +7,9 @@
 
 #include "rig/deform/deform_exact.h"
 #include "runtime/antialias/last_frame.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -26,12 +27,12 @@ constexpr double half_float_step = 1.0 / 1024;
 
 class AntialiasingFrames : public test::GlTest {
 protected:
-    static void set(Character& character, const std::string& setting, const std::string& choice) {
+    static void set(Portrait& character, const std::string& setting, const std::string& choice) {
         const Status done = character.set(setting, choice);
         ASSERT_TRUE(done) << done.error().message;
     }
-    Character character_in(const std::string& mode, const Face& face = make_face({.side = 14, .targets = 2})) const {
-        Character character = make_character(face);
+    Portrait character_in(const std::string& mode, const Face& face = make_face({.side = 14, .targets = 2})) const {
+        Portrait character = make_character(face);
         set(character, "antialiasing.mode", mode);
         return character;
     }
@@ -66,7 +67,7 @@ Sampling sampling_of(const char* mode, const char* factor = "3") {
     EffectSettings settings;
     EXPECT_TRUE(settings.set("antialiasing.mode", mode));
     EXPECT_TRUE(settings.set("supersampling.factor", factor));
-    return find_sampling(settings, View{}, 4, true);
+    return find_sampling(settings, ViewFrame{}, 4, true);
 }
 
 TEST(Sampling, PlacesOfEveryModeSumToZero) {
@@ -108,7 +109,7 @@ TEST(Sampling, CountsFollowModeViewAndDevice) {
     EXPECT_EQ(sampling_of("none").samples, 1U);
     EXPECT_EQ(sampling_of("supersampled", "8").pictures, 64U);
     EffectSettings settings;
-    View view;
+    ViewFrame view;
     view.samples = 0;
     EXPECT_EQ(find_sampling(settings, view, 4, true).samples, 1U);
     view.samples = 64;
@@ -125,7 +126,7 @@ TEST(Sampling, AJitteredCameraSeesThePointAtItsSampleInTheMiddle) {
     const Camera moved = jittered(camera, offset, 60, 40);
     for (const glm::vec3 point : {glm::vec3(0), glm::vec3(0.1F, -0.2F, 0.3F), glm::vec3(-0.1F, 0.05F, -0.4F)}) {
         const auto pixel = [&](const Camera& of) {
-            const glm::vec4 clip = of.clip_from_view * of.view_from_world * glm::vec4(point, 1);
+            const glm::vec4 clip = of.clip_from_view * glm::mat4(of.view_from_world) * glm::vec4(point, 1);
             return (glm::vec2(clip) / clip.w * 0.5F + 0.5F) * size;
         };
         EXPECT_NEAR(glm::length(pixel(moved) - (pixel(camera) - offset)), 0, 1e-4);
@@ -143,10 +144,10 @@ TEST_F(AntialiasingFrames, TheHdrResolveWeighsBrightSamplesLess) {
     face.materials[0].metallic = 1;
     face.materials[0].roughness = 1;
     face.materials[0].emissive_linear = glm::vec3(static_cast<float>(bright));
-    Character character = character_in("msaa4", face);
+    Portrait character = character_in("msaa4", face);
     set(character, "multisampling.resolve", "hdr");
     const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
-    View view = framed_view(character, offscreen);
+    ViewFrame view = framed_view(character, offscreen);
     view.background_linear = {0.5F, 0.5F, 0.5F, 1};
     view.exposure = 0.5F;
     const Image image = draw(character, offscreen, view);
@@ -179,7 +180,7 @@ TEST_F(AntialiasingFrames, TheResolveIsWeighedForADisplayAndPlainForRadiance) {
     for (const auto& [output, expected] : {std::pair(Output::display_srgb, "hdr"), {Output::linear_hdr, "average"}}) {
         const Offscreen offscreen = make_offscreen(40, 40, output);
         const auto drawn = [&](const char* resolve) {
-            Character character = character_in("msaa4", face);
+            Portrait character = character_in("msaa4", face);
             set(character, "multisampling.resolve", resolve);
             return draw(character, offscreen);
         };
@@ -193,15 +194,15 @@ TEST_F(AntialiasingFrames, TheResolveIsWeighedForADisplayAndPlainForRadiance) {
 
 TEST_F(AntialiasingFrames, SupersamplingIsTheMeanOfItsPicturesInLinearLight) {
     const Face face = make_face({.side = 14, .targets = 0});
-    Character whole = character_in("supersampled", face), single = character_in("none", face);
+    Portrait whole = character_in("supersampled", face), single = character_in("none", face);
     set(whole, "supersampling.factor", "3");
     const Offscreen offscreen = make_offscreen(40, 40);
-    const View view = framed_view(whole, offscreen);
+    const ViewFrame view = framed_view(whole, offscreen);
     const Image image = draw(whole, offscreen, view);
     const Sampling sampling = sampling_of("supersampled", "3");
     std::vector<double> mean(image.bytes.size(), 0);
     for (std::uint32_t picture = 0; picture < 9; ++picture) {
-        View moved = view;
+        ViewFrame moved = view;
         moved.camera = jittered(view.camera, sampling.sample_offset_pixels(picture, 0), 40, 40);
         const Image one = draw(single, offscreen, moved);
         for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += linear_from_srgb(one.bytes[i] / 255.0) / 9;
@@ -218,13 +219,13 @@ TEST_F(AntialiasingFrames, SupersamplingIsTheMeanOfItsPicturesInLinearLight) {
 TEST_F(AntialiasingFrames, AStillFaceConvergesToOnePicture) {
     const Face face = make_face({.side = 14, .targets = 2});
     const Offscreen offscreen = make_offscreen(64, 64);
-    Character reference = character_in("supersampled", face), filter = character_in("smaa_1x", face);
+    Portrait reference = character_in("supersampled", face), filter = character_in("smaa_1x", face);
     set(reference, "supersampling.factor", "8");
-    const View view = framed_view(reference, offscreen);
+    const ViewFrame view = framed_view(reference, offscreen);
     const Image truth = draw(reference, offscreen, view), alone = draw(filter, offscreen, view);
     for (const char* mode : {"smaa_t2x", "smaa_4x"}) {
         SCOPED_TRACE(mode);
-        Character character = character_in(mode, face);
+        Portrait character = character_in(mode, face);
         const Image first = draw(character, offscreen, view), second = draw(character, offscreen, view);
         EXPECT_NE(first.bytes, second.bytes);
         for (int frame = 2; frame < 6; ++frame) EXPECT_EQ(draw(character, offscreen, view).bytes, second.bytes);
@@ -249,12 +250,12 @@ TEST_F(AntialiasingFrames, ForcingChangesNoByteInAnyModeStillOrMoving) {
         const Offscreen offscreen = make_offscreen(24, 24, output);
         for (const std::string_view mode : antialiasing_modes) {
             SCOPED_TRACE(mode);
-            Character plain = character_in(std::string(mode), face), forced = character_in(std::string(mode), face);
+            Portrait plain = character_in(std::string(mode), face), forced = character_in(std::string(mode), face);
             if (mode == "supersampled") {
                 set(plain, "supersampling.factor", "2");
                 set(forced, "supersampling.factor", "2");
             }
-            View view = framed_view(plain, offscreen);
+            ViewFrame view = framed_view(plain, offscreen);
             for (const float weight : {0.0F, 0.0F, 1.0F, 1.0F}) {
                 test::set_weights(plain, {weight, 0});
                 test::set_weights(forced, {weight, 0});
@@ -270,9 +271,9 @@ TEST_F(AntialiasingFrames, ForcingChangesNoByteInAnyModeStillOrMoving) {
 }
 
 TEST_F(AntialiasingFrames, SaysWhatIsLeftOutAndWhy) {
-    Character character = character_in("smaa_t2x");
+    Portrait character = character_in("smaa_t2x");
     const Offscreen offscreen = make_offscreen(24, 24);
-    View view = framed_view(character, offscreen);
+    ViewFrame view = framed_view(character, offscreen);
     FrameReport report = character.draw(view);
     EXPECT_EQ(effect(report, "reprojection").reason,
               "there is no last frame of this size and mode: it is the first, or a cut");
@@ -302,7 +303,7 @@ TEST_F(AntialiasingFrames, SaysWhatIsLeftOutAndWhy) {
     report = character.draw(view);
     EXPECT_EQ(effect(report, "antialiasing").reason, "antialiasing.mode asks for no filter");
     EXPECT_EQ(effect(report, "multisampling").reason, "one sample a pixel is asked for");
-    EXPECT_FALSE(character.state().own<LastFrame>().positions) << "what is off keeps nothing";
+    EXPECT_FALSE(character.frame().own<LastFrame>().images[0].color) << "what is off keeps nothing";
 }
 
 TEST_F(AntialiasingFrames, AFaceThatIsNotThereNeedsOneSampleInEveryMode) {
@@ -311,37 +312,37 @@ TEST_F(AntialiasingFrames, AFaceThatIsNotThereNeedsOneSampleInEveryMode) {
     const Offscreen offscreen = make_offscreen(8, 8);
     std::vector<std::uint8_t> background;
     for (const std::string_view mode : antialiasing_modes) {
-        Character character = character_in(std::string(mode), face);
-        const View view = framed_view(character, offscreen);
+        Portrait character = character_in(std::string(mode), face);
+        const ViewFrame view = framed_view(character, offscreen);
         const Image image = draw(character, offscreen, view);
         if (background.empty()) background = image.bytes;
         EXPECT_EQ(image.bytes, background) << mode;
-        EXPECT_EQ(character.state().sampling, Sampling{}) << mode;
+        EXPECT_EQ(character.frame().sampling, Sampling{}) << mode;
     }
 }
 
 TEST_F(AntialiasingFrames, WhatCannotBeOnTheScreenNeedsOneSampleAndIsExact) {
     const Face face = make_face({.side = 14, .targets = 1});
     const Offscreen offscreen = make_offscreen(16, 16);
-    Character character = character_in("smaa_4x", face), forced = character_in("smaa_4x", face);
-    View view = framed_view(character, offscreen);
+    Portrait character = character_in("smaa_4x", face), forced = character_in("smaa_4x", face);
+    ViewFrame view = framed_view(character, offscreen);
     std::size_t seen = 0, away = 0;
     // The dome's radius is 1, and half of the picture's width is a little more.
     for (const float x : {0.0F, 1.0F, 1.9F, 2.0F, 2.1F, 2.2F, 2.3F, 2.4F, 2.6F, 2.8F, 3.0F, 16.0F}) {
-        for (Character* drawn : {&character, &forced}) drawn->pose().nodes[0].translation = {x, 0, 0};
+        for (Portrait* drawn : {&character, &forced}) drawn->pose().nodes[0].translation = {x, 0, 0};
         view.cut = true;
         view.force_effects = true;
         const Image truth = draw(forced, offscreen, view);
         view.force_effects = false;
         const Image image = draw(character, offscreen, view);
-        if (character.state().facts.on_screen) {
+        if (character.frame().facts.on_screen) {
             ++seen;
             continue;
         }
         ++away;
-        EXPECT_EQ(character.state().sampling, Sampling{});
-        EXPECT_EQ(forced.state().sampling.pictures, 2U);
-        EXPECT_EQ(effect(character.state().report, "antialiasing").reason,
+        EXPECT_EQ(character.frame().sampling, Sampling{});
+        EXPECT_EQ(forced.frame().sampling.pictures, 2U);
+        EXPECT_EQ(effect(character.report(), "antialiasing").reason,
                   "no part of the face can be on the screen: the picture has no edges");
         EXPECT_EQ(image.bytes, truth.bytes) << x;
     }
@@ -351,10 +352,10 @@ TEST_F(AntialiasingFrames, WhatCannotBeOnTheScreenNeedsOneSampleAndIsExact) {
 
 TEST_F(AntialiasingFrames, WithoutVelocitiesEveryFrameIsThatOfTheFilterAlone) {
     const Face face = make_face({.side = 14, .targets = 2});
-    Character temporal = character_in("smaa_t2x", face), alone = character_in("smaa_1x", face);
+    Portrait temporal = character_in("smaa_t2x", face), alone = character_in("smaa_1x", face);
     set(temporal, "velocities.source", "none");
     const Offscreen offscreen = make_offscreen(40, 40);
-    const View view = framed_view(alone, offscreen);
+    const ViewFrame view = framed_view(alone, offscreen);
     for (const float weight : {0.0F, 0.5F, 1.0F}) {
         test::set_weights(temporal, {weight, 0});
         test::set_weights(alone, {weight, 0});
@@ -364,9 +365,9 @@ TEST_F(AntialiasingFrames, WithoutVelocitiesEveryFrameIsThatOfTheFilterAlone) {
 
 TEST_F(AntialiasingFrames, ACutShowsNothingOfTheFrameBefore) {
     const Face face = make_face({.side = 14, .targets = 2});
-    Character character = character_in("smaa_4x", face), fresh = character_in("smaa_4x", face);
+    Portrait character = character_in("smaa_4x", face), fresh = character_in("smaa_4x", face);
     const Offscreen offscreen = make_offscreen(40, 40);
-    View view = framed_view(character, offscreen);
+    ViewFrame view = framed_view(character, offscreen);
     test::set_weights(character, {1, 1});
     draw(character, offscreen, view);
     draw(character, offscreen, view);
@@ -445,18 +446,18 @@ class Velocities : public AntialiasingFrames {
 protected:
     static constexpr std::uint32_t side = 56;
 
-    View stand(Character& character, const Offscreen& offscreen, const Motion& motion) const {
+    ViewFrame stand(Portrait& character, const Offscreen& offscreen, const Motion& motion) const {
         test::set_weights(character, motion.weights);
         character.pose().nodes[0].translation = motion.translation;
-        View view = framed_view(character, offscreen);
+        ViewFrame view = framed_view(character, offscreen);
         OrbitCamera camera = character.framing(1);
         camera.yaw_radians = motion.camera_yaw_radians;
         view.camera = camera.camera(1);
         return view;
     }
     /// Of the last frame drawn. Transient textures keep what was in them until a later frame.
-    static std::vector<float> drawn_velocities(Character& character) {
-        CharacterState& state = character.state();
+    static std::vector<float> drawn_velocities(Portrait& character) {
+        FrameState& state = character.frame();
         return read_texture(state.graph[state.resources.velocities].handle, side, 4);
     }
 };
@@ -472,13 +473,13 @@ TEST_F(Velocities, AreTheDifferenceOfTheTwoSurfacesProjectedByTheCpu) {
     };
     for (std::size_t m = 0; m < motions.size(); ++m) {
         SCOPED_TRACE("motion " + std::to_string(m));
-        Character character = character_in("smaa_t2x", face);
+        Portrait character = character_in("smaa_t2x", face);
         const auto& [before, after] = motions[m];
-        const View last_view = stand(character, offscreen, before);
+        const ViewFrame last_view = stand(character, offscreen, before);
         draw(character, offscreen, last_view);
-        const View view = stand(character, offscreen, after);
+        const ViewFrame view = stand(character, offscreen, after);
         draw(character, offscreen, view);
-        ASSERT_TRUE(effect(character.state().report, "velocities").on);
+        ASSERT_TRUE(effect(character.report(), "velocities").on);
         const std::vector<float> drawn = drawn_velocities(character);
 
         const auto world_from_mesh = [](const Motion& motion) {
@@ -520,11 +521,11 @@ TEST_F(Velocities, AreTheDifferenceOfTheTwoSurfacesProjectedByTheCpu) {
 }
 
 TEST_F(Velocities, AJointedFaceMovesWithItsJoints) {
-    Character character = character_in("smaa_t2x", make_face({.side = 14, .targets = 1, .joints = true}));
+    Portrait character = character_in("smaa_t2x", make_face({.side = 14, .targets = 1, .joints = true}));
     const Offscreen offscreen = make_offscreen(side, side);
-    const View view = framed_view(character, offscreen);
+    const ViewFrame view = framed_view(character, offscreen);
     draw(character, offscreen, view);
-    character.pose().nodes[1].rotation = glm::angleAxis(0.1F, glm::vec3(0, 0, 1));
+    character.pose().nodes[1].rotation = rotation_of(glm::angleAxis(0.1F, glm::vec3(0, 0, 1)));
     draw(character, offscreen, view);
     const std::vector<float> drawn = drawn_velocities(character);
     float left = 0, right = 0;
@@ -579,11 +580,11 @@ TEST_F(Reprojection, EqualsTheFormulaWithinOneOf255) {
     const Offscreen offscreen = make_offscreen(side, side);
     for (const char* mode : {"smaa_t2x", "smaa_4x"}) {
         SCOPED_TRACE(mode);
-        Character character = character_in(mode, face);
+        Portrait character = character_in(mode, face);
         draw(character, offscreen, stand(character, offscreen, {{0, 0}, 0}));
         draw(character, offscreen, stand(character, offscreen, {{0.1F, 0.1F}, 0.002F}));
         const Image image = draw(character, offscreen, stand(character, offscreen, {{0.2F, 0.05F}, 0.005F}));
-        const LastFrame& last = character.state().own<LastFrame>();
+        const LastFrame& last = character.frame().own<LastFrame>();
         const KeptImage& now = last.images[last.phase];
         const KeptImage& before = last.images[1 - last.phase];
         ASSERT_TRUE(now.has_speeds && before.has_speeds);
@@ -654,7 +655,7 @@ protected:
     /// Share of the ghost's energy that is left: over pixels that are all wall, squares of what is shown beyond it to
     /// squares of what the last frame has beyond it.
     double left_of_ghost(const Way& way, float pixels_a_frame) {
-        Character character = character_in(way.mode, face_);
+        Portrait character = character_in(way.mode, face_);
         set(character, "reprojection.falloff", way.falloff);
         set(character, "reprojection.rejection", way.rejection);
         // The dome is two units wide and fills most of the picture.
@@ -663,7 +664,7 @@ protected:
             draw(character, offscreen_, stand(character, offscreen_, {{0}, 0, {x, 0, 0}}));
         }
         const Image image = offscreen_.read();
-        const LastFrame& last = character.state().own<LastFrame>();
+        const LastFrame& last = character.frame().own<LastFrame>();
         const std::vector<float> alone = read_texture(last.images[last.phase].color.name(), side, 4),
                                  before = read_texture(last.images[1 - last.phase].color.name(), side, 4);
         double ghost = 0, left = 0;

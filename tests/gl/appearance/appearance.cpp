@@ -222,8 +222,8 @@ TEST_F(Appearance, SteepBaseMapsGetAWiderRange) {
 
 class AppearanceFrames : public test::GlTest {
 protected:
-    Character character() {
-        Character made = make_character(expressive_face());
+    Portrait character() {
+        Portrait made = make_character(expressive_face());
         made.set_appearance({waves(made.rig(), 0.8F, 1), pigments(made.rig())});
         return made;
     }
@@ -232,11 +232,18 @@ protected:
     }
 };
 
+/// Bits of all permutations that were made on the device.
+std::uint32_t used_bits(Portrait& made) {
+    std::uint32_t used = 0;
+    for (const auto& [permutation, program] : made.frame().shared_own<ShadePrograms>().made) used |= permutation;
+    return used;
+}
+
 TEST_F(AppearanceFrames, CostNothingAtRestAndSayWhy) {
-    Character made = character();
+    Portrait made = character();
     const Offscreen offscreen = make_offscreen(64, 64);
     test::draw(made, offscreen);
-    const FrameReport& report = made.state().report;
+    const FrameReport& report = made.report();
     EXPECT_FALSE(report_of(report, "wrinkles").on);
     EXPECT_EQ(report_of(report, "wrinkles").reason, "no zone of the face is pressed together or smoothed");
     EXPECT_FALSE(report_of(report, "blood").on);
@@ -244,39 +251,38 @@ TEST_F(AppearanceFrames, CostNothingAtRestAndSayWhy) {
               "the blood is as it is at rest: the skin has the colour of its texture");
     for (const PassReport& pass : report.passes) EXPECT_NE(pass.name, "blend blood");
     constexpr std::uint32_t bits = shade_wrinkles | shade_wrinkle_differences | shade_blood | shade_pigment_colour;
-    for (const auto& [permutation, program] : made.state().model.programs) EXPECT_EQ(permutation & bits, 0U);
-    EXPECT_FALSE(made.state().own<WrinkleTextures>().masks) << "nothing is uploaded for it either";
-    EXPECT_FALSE(made.state().own<BloodTextures>().pigments);
+    EXPECT_EQ(used_bits(made) & bits, 0U);
+    EXPECT_FALSE((made.state().model->own<std::array<WrinkleTextures, 3>>()[0].masks))
+        << "nothing is uploaded for it either";
+    EXPECT_FALSE(made.state().model->own<BloodTextures>().pigments);
 
     made.set(*made.control("anger"), 1);
     test::draw(made, offscreen);
-    std::uint32_t used = 0;
-    for (const auto& [permutation, program] : made.state().model.programs) used |= permutation & bits;
-    EXPECT_EQ(used, shade_wrinkles | shade_blood);
-    EXPECT_EQ(std::ranges::count(made.state().report.passes, "blend blood", &PassReport::name), 1);
+    EXPECT_EQ(used_bits(made) & bits, shade_wrinkles | shade_blood);
+    EXPECT_EQ(std::ranges::count(made.report().passes, "blend blood", &PassReport::name), 1);
     // Back at zero the passes are those of a face without maps.
     made.set(*made.control("anger"), 0);
     test::draw(made, offscreen);
-    Character bare = make_character(expressive_face());
+    Portrait bare = make_character(expressive_face());
     bare.set(*bare.control("anger"), 1);
     test::draw(bare, offscreen);
     bare.set(*bare.control("anger"), 0);
     test::draw(bare, offscreen);
-    const auto names = [](Character& of) {
+    const auto names = [](Portrait& of) {
         std::vector<std::string_view> result;
-        for (const PassReport& pass : of.state().report.passes) result.push_back(pass.name);
+        for (const PassReport& pass : of.report().passes) result.push_back(pass.name);
         return result;
     };
     EXPECT_EQ(names(made), names(bare));
 }
 
 TEST_F(AppearanceFrames, ChangeThePictureWhenTheyAct) {
-    Character made = character();
+    Portrait made = character();
     const Offscreen offscreen = make_offscreen(96, 96);
     made.set(*made.control("anger"), 1);
     const Image both = test::draw(made, offscreen);
-    EXPECT_TRUE(report_of(made.state().report, "wrinkles").on);
-    EXPECT_TRUE(report_of(made.state().report, "blood").on);
+    EXPECT_TRUE(report_of(made.report(), "wrinkles").on);
+    EXPECT_TRUE(report_of(made.report(), "blood").on);
     const FaceAppearance all{waves(made.rig(), 0.8F, 1), pigments(made.rig())};
     made.set_appearance({all.wrinkles, std::nullopt});
     const Image wrinkled = test::draw(made, offscreen);
@@ -294,7 +300,7 @@ TEST_F(AppearanceFrames, ChangeThePictureWhenTheyAct) {
 
 // Of a face so small that wrinkles are left out, drawing them changes no pixel by more than the bound that is stated.
 TEST_F(AppearanceFrames, LeavingWrinklesOutOfASmallFaceIsWithinItsBound) {
-    Character made = character();
+    Portrait made = character();
     // Folds every 8 mm of a face of 240 mm, as the baker makes them, everywhere at full strength.
     WrinkleSet folds = waves(made.rig(), 0, 1);
     folds.derivatives = DerivativeMap(256, 256);
@@ -306,7 +312,7 @@ TEST_F(AppearanceFrames, LeavingWrinklesOutOfASmallFaceIsWithinItsBound) {
     const std::string least = std::to_string(made.state().settings.number("wrinkles", "least_pixels_a_mm"));
     const Offscreen offscreen = make_offscreen(64, 64);
     OrbitCamera camera = made.framing(1);
-    View view = test::framed_view(made, offscreen);
+    ViewFrame view = test::framed_view(made, offscreen);
     made.set(*made.control("surprise"), 1);
     bool left_out = false;
     for (int step = 0; step < 12 && !left_out; ++step) {
@@ -314,7 +320,7 @@ TEST_F(AppearanceFrames, LeavingWrinklesOutOfASmallFaceIsWithinItsBound) {
         view.camera = camera.camera(1);
         ASSERT_TRUE(made.set("wrinkles.least_pixels_a_mm", least));
         const Image plain = test::draw(made, offscreen, view);
-        const EffectReport report = report_of(made.state().report, "wrinkles");
+        const EffectReport report = report_of(made.report(), "wrinkles");
         left_out = !report.on;
         if (!left_out) continue;
         EXPECT_EQ(report.omission, Omission::bounded);
@@ -337,20 +343,20 @@ TEST_F(AppearanceFrames, LeavingWrinklesOutOfASmallFaceIsWithinItsBound) {
 // Both 127 and 128 are within half a step of flat.
 TEST_F(AppearanceFrames, AFlatBaseMapGivesTheGeometricNormalToTheBit) {
     const Offscreen offscreen = make_offscreen(64, 64);
-    Character bare = make_character(expressive_face());
+    Portrait bare = make_character(expressive_face());
     const Image without = test::draw(bare, offscreen);
     for (const std::uint8_t flat : {std::uint8_t{127}, std::uint8_t{128}}) {
         Face face = expressive_face();
         face.images.push_back({"flat", 4, 4, 3, {}, {}});
         for (int i = 0; i < 16; ++i) face.images[0].bytes.insert(face.images[0].bytes.end(), {flat, flat, 255});
         face.materials[0].normal.image = 0;
-        Character mapped = make_character(std::move(face));
+        Portrait mapped = make_character(std::move(face));
         EXPECT_EQ(test::draw(mapped, offscreen).bytes, without.bytes);
     }
     Face face = expressive_face();
     face.images.push_back(test::waffle_normal_map());
     face.materials[0].normal.image = 0;
-    Character waffle = make_character(std::move(face));
+    Portrait waffle = make_character(std::move(face));
     EXPECT_NE(test::draw(waffle, offscreen).bytes, without.bytes);
 }
 
@@ -385,13 +391,13 @@ TEST_F(AppearanceFrames, ColourOfPigmentsIsThatOfTheTexture) {
     ASSERT_TRUE(albedo);
     SkinPigments made;
     made.maps = appearance_from_albedo(*albedo, SkinColourTable());
-    Character character = make_character(std::move(face));
+    Portrait character = make_character(std::move(face));
     character.set_appearance({std::nullopt, made});
     const Offscreen offscreen = make_offscreen(64, 64);
     const Image texture = test::draw(character, offscreen);
     ASSERT_TRUE(character.set("blood.colour", "pigments"));
     const Image pigments = test::draw(character, offscreen);
-    EXPECT_TRUE(report_of(character.state().report, "blood").on);
+    EXPECT_TRUE(report_of(character.report(), "blood").on);
     EXPECT_LT(worst_difference(pigments, texture), 2);
 
     // What is painted shows, in the frame where the colour comes from the maps alone: a mole, and lipstick.
@@ -413,7 +419,7 @@ TEST_F(AppearanceFrames, ColourOfPigmentsIsThatOfTheTexture) {
 }
 
 TEST_F(AppearanceFrames, TheTableHasTheSizeThatIsAskedFor) {
-    Character made = character();
+    Portrait made = character();
     const Offscreen offscreen = make_offscreen(64, 64);
     made.set(*made.control("anger"), 1);
     const Image fine = test::draw(made, offscreen);
@@ -425,11 +431,11 @@ TEST_F(AppearanceFrames, TheTableHasTheSizeThatIsAskedFor) {
 }
 
 TEST_F(AppearanceFrames, BloodIsBlendedOnceForAPose) {
-    Character made = character();
+    Portrait made = character();
     const Offscreen offscreen = make_offscreen(32, 32);
     const auto blends = [&] {
         test::draw(made, offscreen);
-        return std::ranges::count(made.state().report.passes, "blend blood", &PassReport::name);
+        return std::ranges::count(made.report().passes, "blend blood", &PassReport::name);
     };
     made.set(*made.control("joy"), 0.5F);
     EXPECT_EQ(blends(), 1);
@@ -440,16 +446,16 @@ TEST_F(AppearanceFrames, BloodIsBlendedOnceForAPose) {
 
 // What is left out since it changes no bit must change none when it is forced on.
 TEST_F(AppearanceFrames, LeavingOutIsExact) {
-    Character made = character();
+    Portrait made = character();
     const Offscreen offscreen = make_offscreen(64, 64);
     const Image left_out = test::draw(made, offscreen);
-    View forced = test::framed_view(made, offscreen);
+    ViewFrame forced = test::framed_view(made, offscreen);
     forced.force_effects = true;
     EXPECT_EQ(test::draw(made, offscreen, forced).bytes, left_out.bytes);
 }
 
 TEST_F(AppearanceFrames, MapsForExpressionsThatTheRigLacksAreLeftAlone) {
-    Character made = character();
+    Portrait made = character();
     FaceAppearance odd{waves(made.rig(), 0.8F, 1), pigments(made.rig())};
     odd.wrinkles->zones[0] = "elbow";
     odd.pigments->blood.names[0] = "hunger";
@@ -462,14 +468,14 @@ TEST_F(AppearanceFrames, MapsForExpressionsThatTheRigLacksAreLeftAlone) {
 }
 
 TEST_F(AppearanceFrames, NoMapsOfBloodAtAll) {
-    Character made = character();
+    Portrait made = character();
     FaceAppearance bare{std::nullopt, pigments(made.rig())};
     bare.pigments->blood = {};
     made.set_appearance(bare);
     made.set(*made.control("anger"), 1);
     const Offscreen offscreen = make_offscreen(32, 32);
     test::draw(made, offscreen);
-    EXPECT_TRUE(report_of(made.state().report, "blood").on) << "anger's factor acts on the whole face";
+    EXPECT_TRUE(report_of(made.report(), "blood").on) << "anger's factor acts on the whole face";
 }
 
 }  // namespace

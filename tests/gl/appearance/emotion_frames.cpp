@@ -12,7 +12,7 @@
 #include "rig/head/canonical_face.h"
 #include "rig/wrinkles/wrinkle_zones.h"
 #include "runtime/files/face_file.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -61,7 +61,7 @@ protected:
         OrbitCamera camera = character_.framing(aspect);
         camera.distance *= 0.8F;
         // The shoulders' vertices lie too far apart to tell skin by them.
-        camera.target_world.y += 0.04F * camera.distance;
+        camera.target_world.y += static_cast<double>(0.04F * camera.distance);
         view_.camera = camera.camera(aspect);
     }
 
@@ -80,11 +80,11 @@ protected:
         CharacterState& state = character_.state();
         const std::vector<std::uint32_t> skin = skin_primitives(*face_);
         const CanonicalFrame frame(*landmarks_from_targets(*face_, skin));
-        const Character::Surface surface = character_.read_deformed();
+        const Scene::Surface surface = character_.read_deformed();
         Pixels result{std::vector<glm::vec2>(width * height, glm::vec2(1e9F)),
                       std::vector<bool>(width * height, false)};
         std::vector<float> depth(width * height, 1e9F);
-        const glm::mat4 clip_from_world = view_.camera.clip_from_view * view_.camera.view_from_world;
+        const glm::mat4 clip_from_world = view_.camera.clip_from_view * glm::mat4(view_.camera.view_from_world);
         for (std::size_t n = 0; n < face_->nodes.size(); ++n) {
             const Node& node = face_->nodes[n];
             if (node.mesh < 0) continue;
@@ -94,8 +94,8 @@ protected:
                 const Primitive& primitive = face_->primitives[p];
                 for (std::uint32_t v = primitive.first_vertex; v < primitive.first_vertex + primitive.vertex_count;
                      ++v) {
-                    const glm::vec4 clip =
-                        clip_from_world * state.world_from_node[n] * glm::vec4(surface.positions[v], 1);
+                    const glm::vec4 clip = clip_from_world * glm::mat4(state.stance.world_from_node[n]) *
+                                           glm::vec4(surface.positions[v], 1);
                     const glm::vec2 place =
                         (glm::vec2(clip.x, -clip.y) / clip.w * 0.5F + 0.5F) * glm::vec2(width, height);
                     splat(result, depth, place, clip.w, frame.canonical_mm(face_->positions[v]));
@@ -139,9 +139,9 @@ protected:
 
     static Face* face_;
     static FaceAppearance* appearance_;
-    Character character_;
+    Portrait character_;
     Offscreen offscreen_;
-    View view_;
+    ViewFrame view_;
 
 private:
     /// The nearest to the camera of all that come within two pixels.

@@ -11,7 +11,7 @@
 #include "rig/camera/depth_of_field.h"
 #include "rig/camera/exposure.h"
 #include "rig/camera/film_grain.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -53,7 +53,7 @@ double display_byte(double radiance) {
 class CameraEffects : public test::GlTest {
 protected:
     /// Nothing but the background.
-    Character nothing() const {
+    Portrait nothing() const {
         Face face = test::make_face({.side = 4, .targets = 0});
         for (Primitive& primitive : face.primitives) primitive.index_count = 0;
         return make_character(std::move(face));
@@ -64,7 +64,7 @@ protected:
 constexpr double bloom_tolerance = 3e-3;
 
 TEST_F(CameraEffects, BloomIsItsTwin) {
-    Character character = make_character(test::make_face({.targets = 0}));
+    Portrait character = make_character(test::make_face({.targets = 0}));
     const Offscreen offscreen = make_offscreen(61, 46, Output::linear_hdr);
     const Picture off = radiance_of(test::draw(character, offscreen));
     ASSERT_TRUE(character.set("bloom.strength", "0.6"));
@@ -79,10 +79,10 @@ TEST_F(CameraEffects, BloomIsItsTwin) {
 }
 
 TEST_F(CameraEffects, BloomLeavesAConstantImageItsBits) {
-    Character character = nothing();
+    Portrait character = nothing();
     ASSERT_TRUE(character.set("bloom.strength", "0.5"));
     const Offscreen offscreen = make_offscreen(50, 33, Output::linear_hdr);
-    View view = test::framed_view(character, offscreen);
+    ViewFrame view = test::framed_view(character, offscreen);
     view.background_linear = {0.7F, 3.1F, 512.0F, 1};
     const Image image = test::draw(character, offscreen, view);
     for (std::size_t i = 0; i < image.floats.size(); i += 4) {
@@ -93,13 +93,13 @@ TEST_F(CameraEffects, BloomLeavesAConstantImageItsBits) {
 }
 
 TEST_F(CameraEffects, ExposureBringsAConstantImageToTheKey) {
-    Character character = nothing();
+    Portrait character = nothing();
     ASSERT_TRUE(character.set("exposure.mode", "automatic"));
     const Offscreen offscreen = make_offscreen(40, 30);
     for (const char* metering : {"frame", "centre"}) {
         ASSERT_TRUE(character.set("exposure.metering", metering));
         for (const float radiance : {0.05F, 0.2F, 5.0F}) {
-            View view = test::framed_view(character, offscreen);
+            ViewFrame view = test::framed_view(character, offscreen);
             view.cut = true;
             view.background_linear = glm::vec4(glm::vec3(radiance), 1);
             const Image image = test::draw(character, offscreen, view);
@@ -109,15 +109,15 @@ TEST_F(CameraEffects, ExposureBringsAConstantImageToTheKey) {
     }
     // No further from the view's own exposure than the range has it.
     ASSERT_TRUE(character.set("exposure.range_stops", "2"));
-    View view = test::framed_view(character, offscreen);
+    ViewFrame view = test::framed_view(character, offscreen);
     view.cut = true;
     view.background_linear = glm::vec4(glm::vec3(0.01F), 1);
     EXPECT_NEAR(test::draw(character, offscreen, view).bytes[0], display_byte(0.04), 1);
 }
 
 TEST_F(CameraEffects, ExposureIsItsTwinAndAdaptsByTheTimeThatHasPassed) {
-    Character character = make_character(test::make_face({.targets = 0})),
-              meter = make_character(test::make_face({.targets = 0}));
+    Portrait character = make_character(test::make_face({.targets = 0})),
+             meter = make_character(test::make_face({.targets = 0}));
     ASSERT_TRUE(character.set("exposure.mode", "automatic"));
     ASSERT_TRUE(character.set("exposure.metering", "centre"));
     ASSERT_TRUE(character.set("exposure.brighter_half_life", "0.25"));
@@ -128,7 +128,7 @@ TEST_F(CameraEffects, ExposureIsItsTwinAndAdaptsByTheTimeThatHasPassed) {
     bright.sky_radiance_linear = bright.ground_radiance_linear = glm::vec3(4);
     dark.sky_radiance_linear = dark.ground_radiance_linear = glm::vec3(0.25F);
     const auto target = [&](const Lighting& lighting) {
-        View view = test::framed_view(meter, linear);
+        ViewFrame view = test::framed_view(meter, linear);
         view.lighting = &lighting;
         const Picture picture = radiance_of(test::draw(meter, linear, view));
         return std::pair(picture, log2_exposure(log2_average_luminance(picture, Metering::centre), 0.18, 0, 6));
@@ -145,7 +145,7 @@ TEST_F(CameraEffects, ExposureIsItsTwinAndAdaptsByTheTimeThatHasPassed) {
         }
         EXPECT_LE(worst, 1);
     };
-    View view = test::framed_view(character, display);
+    ViewFrame view = test::framed_view(character, display);
     view.lighting = &bright;
     const auto [bright_picture, bright_log2] = target(bright);
     const auto [dark_picture, dark_log2] = target(dark);
@@ -158,12 +158,12 @@ TEST_F(CameraEffects, ExposureIsItsTwinAndAdaptsByTheTimeThatHasPassed) {
 }
 
 TEST_F(CameraEffects, WhatIsNoNumberIsNotMetered) {
-    Character character = make_character(test::make_face({.targets = 0}));
+    Portrait character = make_character(test::make_face({.targets = 0}));
     ASSERT_TRUE(character.set("exposure.mode", "automatic"));
     ASSERT_TRUE(character.set("scattering.method", "off"));
     const Offscreen display = make_offscreen(32, 32), linear = make_offscreen(32, 32, Output::linear_hdr);
     const auto view_of = [&](const Offscreen& of) {
-        View view = test::framed_view(character, of);
+        ViewFrame view = test::framed_view(character, of);
         view.check_finite = false;
         view.samples = 1;
         view.cut = true;
@@ -176,7 +176,7 @@ TEST_F(CameraEffects, WhatIsNoNumberIsNotMetered) {
     ASSERT_GT(broken, 100U);
     ASSERT_LT(broken, 900U);
     test::draw(character, display, view_of(display));
-    const CharacterState& state = character.state();
+    const FrameState& state = character.frame();
     float found = 0;
     glGetTextureImage(state.graph[state.resources.log2_exposure].handle, 0, GL_RED, GL_FLOAT, sizeof(found), &found);
     EXPECT_NEAR(static_cast<double>(found),
@@ -184,10 +184,10 @@ TEST_F(CameraEffects, WhatIsNoNumberIsNotMetered) {
 }
 
 TEST_F(CameraEffects, WhatIsNoNumberStaysWhereItIs) {
-    Character character = make_character(test::make_face({.targets = 0}));
+    Portrait character = make_character(test::make_face({.targets = 0}));
     const Offscreen offscreen = make_offscreen(32, 32), linear = make_offscreen(32, 32, Output::linear_hdr);
     const auto view_of = [&](const Offscreen& of) {
-        View view = test::framed_view(character, of);
+        ViewFrame view = test::framed_view(character, of);
         view.check_finite = false;
         view.samples = 1;
         return view;
@@ -195,14 +195,14 @@ TEST_F(CameraEffects, WhatIsNoNumberStaysWhereItIs) {
     ASSERT_TRUE(character.set("scattering.method", "off"));
     const Image clean = test::draw(character, offscreen, view_of(offscreen));
     for (const float broken : {NAN, INFINITY, 65504.0F}) {
-        View view = view_of(offscreen);
+        ViewFrame view = view_of(offscreen);
         view.background_linear = glm::vec4(glm::vec3(broken), 1);
         const Image alone = test::draw(character, offscreen, view);
         const std::size_t middle = 4 * (16 * 32 + 16);
         EXPECT_EQ(alone.bytes[middle], clean.bytes[middle]);
         ASSERT_TRUE(character.set("bloom.strength", "0.01"));
         ASSERT_TRUE(character.set("depth_of_field.f_number", "0.1"));
-        View linear_view = view_of(linear);
+        ViewFrame linear_view = view_of(linear);
         linear_view.background_linear = view.background_linear;
         linear_view.camera = view.camera;
         for (const float texel : test::draw(character, linear, linear_view).floats) {
@@ -220,14 +220,14 @@ TEST_F(CameraEffects, WhatIsNoNumberStaysWhereItIs) {
 }
 
 TEST_F(CameraEffects, GrainIsItsTwinAndTheSameForTheSameFrame) {
-    Character character = make_character(test::make_face({.targets = 0}));
+    Portrait character = make_character(test::make_face({.targets = 0}));
     const Offscreen offscreen = make_offscreen(48, 40);
     const Image off = test::draw(character, offscreen);
     ASSERT_TRUE(character.set("grain.strength", "0.1"));
     ASSERT_TRUE(character.set("grain.seed", "3"));
     for (const char* size : {"1", "2.5"}) {
         ASSERT_TRUE(character.set("grain.size", size));
-        View view = test::framed_view(character, offscreen);
+        ViewFrame view = test::framed_view(character, offscreen);
         view.frame_number = 7;
         const Image on = test::draw(character, offscreen, view);
         EXPECT_EQ(test::draw(character, offscreen, view).bytes, on.bytes);
@@ -314,7 +314,7 @@ protected:
     Picture draw(const char* f_number, const char* focus_mm, std::uint32_t samples = 1) {
         EXPECT_TRUE(character_.set("depth_of_field.f_number", f_number));
         EXPECT_TRUE(character_.set("depth_of_field.focus_mm", focus_mm));
-        View view = offscreen_.view();
+        ViewFrame view = offscreen_.view();
         view.samples = samples;
         view.check_finite = true;
         static const Lighting none;
@@ -323,7 +323,7 @@ protected:
         return radiance_of(test::draw(character_, offscreen_, view));
     }
 
-    Character character_;
+    Portrait character_;
     Offscreen offscreen_;
 };
 

@@ -6,8 +6,9 @@
 #include <iostream>
 
 #include "rig/deform/deform.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 #include "tests/ulp.h"
 
 namespace blush {
@@ -29,11 +30,11 @@ constexpr float skinning_tolerance = 4 * 1.2e-7F;
 class Deformation : public test::GlTest {
 protected:
     void expect_agrees_with_cpu(Face face, const std::vector<float>& weights, const char* method, const char* source) {
-        Character character = make_character(std::move(face));
+        Portrait character = make_character(std::move(face));
         ASSERT_TRUE(character.set("deformation.method", method));
         ASSERT_TRUE(character.set("normals.source", source));
         set_weights(character, weights);
-        const Character::Surface gpu = character.read_deformed();
+        const Scene::Surface gpu = character.read_deformed();
 
         Deformer deformer(character.face());
         DeformedSurface cpu;
@@ -97,7 +98,7 @@ struct Bits {
     std::vector<std::byte> bytes;
     bool operator==(const Bits&) const = default;
 };
-Bits bits_of(const Character::Surface& surface) {
+Bits bits_of(const Scene::Surface& surface) {
     Bits bits;
     const auto append = [&](const auto& values) {
         const auto raw = std::as_bytes(std::span(values));
@@ -113,23 +114,22 @@ TEST_F(Deformation, BothMethodsGiveTheSameBits) {
     for (const bool tangents : {false, true}) {
         const Face face =
             make_face({.targets = 60, .normal_deltas = true, .tangent_deltas = tangents, .two_primitives = true});
-        Character character = make_character(face);
+        Portrait character = make_character(face);
         for (const std::size_t active : {1U, 3U, 4U, 5U, 52U}) {
             set_weights(character, spread_weights(face, active, active));
             ASSERT_TRUE(character.set("deformation.method", "sparse"));
             const Bits sparse = bits_of(character.read_deformed());
-            EXPECT_EQ(character.state().report.deltas_added, character.state().stream_out->last_work().deltas);
+            EXPECT_EQ(character.state().report->deltas_added, character.state().stream_out.last_work().deltas);
             ASSERT_TRUE(character.set("deformation.method", "passes"));
             EXPECT_EQ(bits_of(character.read_deformed()), sparse) << active << " active";
             const std::uint32_t per_pass = tangents ? 3 : 4;
-            EXPECT_EQ(character.state().stream_out->last_work().passes, (active + per_pass - 1) / per_pass);
+            EXPECT_EQ(character.state().stream_out.last_work().passes, (active + per_pass - 1) / per_pass);
         }
     }
 }
 
-Character::Surface read_back(const SurfaceBuffers& buffers, std::size_t count) {
-    Character::Surface surface{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count),
-                               std::vector<glm::vec4>(count)};
+Scene::Surface read_back(const SurfaceBuffers& buffers, std::size_t count) {
+    Scene::Surface surface{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count), std::vector<glm::vec4>(count)};
     const auto read = [](const gl::Buffer& buffer, auto& out) {
         glGetNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(out.size() * sizeof(out[0])), out.data());
     };
@@ -147,26 +147,27 @@ TEST_F(Deformation, SeveralPagesOfDeltasGiveTheBitsOfOne) {
                                  .two_primitives = true});
     std::size_t largest = 0;
     for (const Target& target : face.targets) largest = std::max(largest, target.vertices.size());
-    Result<StreamOut> one = StreamOut::create(device_, face);
-    Result<StreamOut> many = StreamOut::create(device_, face, largest * sizeof(glm::vec3));
-    ASSERT_TRUE(one);
-    ASSERT_TRUE(many);
+    const auto one_page = DeformModel::create(device_, face);
+    const auto many_pages = DeformModel::create(device_, face, largest * sizeof(glm::vec3));
+    ASSERT_TRUE(one_page);
+    ASSERT_TRUE(many_pages);
+    StreamOut one(*one_page), many(*many_pages);
     const std::size_t count = face.positions.size();
     for (const std::size_t active_count : {9U, 1U, 2U, 0U, 4U}) {
         std::vector<ActiveTarget> active;
         find_active(spread_weights(face, active_count, active_count + 1), active);
         for (const NormalMethod method : {NormalMethod::authored, NormalMethod::recomputed}) {
-            for (StreamOut* stream_out : {&*one, &*many}) {
+            for (StreamOut* stream_out : {&one, &many}) {
                 stream_out->set_active(active);
                 stream_out->add_targets_sparse(method);
                 stream_out->turn_normals(method);
             }
-            EXPECT_EQ(bits_of(read_back(many->deformed(), count)), bits_of(read_back(one->deformed(), count)))
+            EXPECT_EQ(bits_of(read_back(many.deformed(), count)), bits_of(read_back(one.deformed(), count)))
                 << active_count << " active";
-            EXPECT_EQ(many->last_work().deltas, one->last_work().deltas);
-            EXPECT_EQ(one->last_work().passes, 1U);
+            EXPECT_EQ(many.last_work().deltas, one.last_work().deltas);
+            EXPECT_EQ(one.last_work().passes, 1U);
             if (active_count == 9) {
-                EXPECT_GT(many->last_work().passes, 3U);
+                EXPECT_GT(many.last_work().passes, 3U);
             }
         }
     }
@@ -174,7 +175,7 @@ TEST_F(Deformation, SeveralPagesOfDeltasGiveTheBitsOfOne) {
 
 TEST_F(Deformation, ATargetBeyondOneBlockIsAnErrorThatNamesIt) {
     const Face face = make_face({.targets = 2});
-    const Result<StreamOut> made = StreamOut::create(device_, face, 10 * sizeof(glm::vec3));
+    const auto made = DeformModel::create(device_, face, 10 * sizeof(glm::vec3));
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().message, "test_face: target \"t0\" moves " +
                                         std::to_string(face.targets[0].vertices.size()) + " vertices; " +
@@ -183,14 +184,14 @@ TEST_F(Deformation, ATargetBeyondOneBlockIsAnErrorThatNamesIt) {
 
 TEST_F(Deformation, ChangingWeightsAndChangingTheSetGiveWhatAFreshCharacterGives) {
     const Face face = make_face({.targets = 10, .normal_deltas = true, .odd_without_normals = true});
-    Character kept = make_character(face);
+    Portrait kept = make_character(face);
     const std::vector<std::vector<float>> steps = {
         spread_weights(face, 4, 1), spread_weights(face, 4, 2),  // the same set, other weights
         spread_weights(face, 7, 3), spread_weights(face, 1, 4),  // other sets
         std::vector<float>(10, 0),  spread_weights(face, 10, 5),
     };
     for (std::size_t step = 0; step < steps.size(); ++step) {
-        Character fresh = make_character(face);
+        Portrait fresh = make_character(face);
         set_weights(kept, steps[step]);
         set_weights(fresh, steps[step]);
         EXPECT_EQ(bits_of(kept.read_deformed()), bits_of(fresh.read_deformed())) << "step " << step;
@@ -200,7 +201,7 @@ TEST_F(Deformation, ChangingWeightsAndChangingTheSetGiveWhatAFreshCharacterGives
 TEST_F(Deformation, BackAtZeroTheRestFaceStandsBitForBit) {
     const Face face = make_face({.targets = 3, .normal_deltas = true, .tangent_deltas = true});
     const Bits rest = bits_of({face.positions, face.normals, face.tangents});
-    Character character = make_character(face);
+    Portrait character = make_character(face);
     for (const char* method : {"sparse", "passes"}) {
         ASSERT_TRUE(character.set("deformation.method", method));
         set_weights(character, {1, 1, 1});
@@ -209,7 +210,7 @@ TEST_F(Deformation, BackAtZeroTheRestFaceStandsBitForBit) {
         EXPECT_EQ(bits_of(character.read_deformed()), rest) << method;
     }
     // The stream-out itself, with nothing active.
-    StreamOut& stream_out = *character.state().stream_out;
+    StreamOut& stream_out = character.state().stream_out;
     stream_out.set_active({});
     stream_out.add_targets_sparse(NormalMethod::recomputed);
     stream_out.turn_normals(NormalMethod::recomputed);
@@ -220,9 +221,9 @@ TEST_F(Deformation, BackAtZeroTheRestFaceStandsBitForBit) {
 
 TEST_F(Deformation, SkinningEqualsTheCpu) {
     const Face face = make_face({.targets = 2, .normal_deltas = true, .joints = true});
-    Character character = make_character(face);
+    Portrait character = make_character(face);
     set_weights(character, {0.7F, -0.3F});
-    character.pose().nodes[1].rotation = glm::angleAxis(0.6F, glm::normalize(glm::vec3(1, 2, 0)));
+    character.pose().nodes[1].rotation = rotation_of(glm::angleAxis(0.6F, glm::normalize(glm::vec3(1, 2, 0))));
     character.pose().nodes[2].translation.y += 0.3F;
     const Offscreen offscreen = make_offscreen(32, 32);
     test::draw(character, offscreen);
@@ -232,8 +233,8 @@ TEST_F(Deformation, SkinningEqualsTheCpu) {
     Deformer deformer(face);
     deformer.deform(std::vector<float>{0.7F, -0.3F}, NormalMethod::authored, cpu);
     const std::vector<glm::vec3> morphed = cpu.positions;
-    skin(face.joints, face.joint_weights, state.skinned_from_mesh, cpu.positions, cpu.normals, cpu.tangents);
-    const Character::Surface gpu = read_back(state.stream_out->skinned(), face.positions.size());
+    skin(face.joints, face.joint_weights, state.stance.skinned_from_mesh, cpu.positions, cpu.normals, cpu.tangents);
+    const Scene::Surface gpu = read_back(state.stream_out.skinned(), face.positions.size());
     float worst = 0, furthest = 0;
     for (std::size_t v = 0; v < face.positions.size(); ++v) {
         furthest = std::max(furthest, glm::distance(cpu.positions[v], morphed[v]));

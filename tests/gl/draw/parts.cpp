@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "rig/head/eye_sockets.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -52,9 +52,9 @@ Face card_before_skin(AlphaMode mode) {
 
 class Parts : public test::GlTest {
 protected:
-    Image draw(Character& character, std::uint32_t samples) {
+    Image draw(Portrait& character, std::uint32_t samples) {
         const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
-        View view = test::framed_view(character, offscreen);
+        ViewFrame view = test::framed_view(character, offscreen);
         OrbitCamera camera = character.framing(1);
         camera.distance *= 0.83F;
         camera.yaw_radians = camera.pitch_radians = 0.25F;  // no edge stands upright between two columns of pixels
@@ -62,8 +62,8 @@ protected:
         view.samples = samples;
         return test::draw(character, offscreen, view);
     }
-    Character with(Face face, const std::string& name = {}, const std::string& value = {}) {
-        Character character = make_character(std::move(face));
+    Portrait with(Face face, const std::string& name = {}, const std::string& value = {}) {
+        Portrait character = make_character(std::move(face));
         EXPECT_TRUE(character.set("scattering.millimetres_a_unit", "1000"));
         EXPECT_TRUE(character.set("shadows.method", "off"));  // a card hides light from skin beside it
         if (!name.empty()) {
@@ -88,8 +88,8 @@ TEST_F(Parts, ACardGivesSkinNothingAndTakesNothingFromIt) {
         bald.primitives[1].index_count = 0;
         Face bright = card_before_skin(mode);
         bright.materials[1].emissive_linear = glm::vec3(30);
-        Character card = with(card_before_skin(mode)), bright_card = with(bright),
-                  bald_plain = with(bald, "scattering.method", "off");
+        Portrait card = with(card_before_skin(mode)), bright_card = with(bright),
+                 bald_plain = with(bald, "scattering.method", "off");
         for (const std::uint32_t samples : {1U, 4U}) {
             const Image image = draw(card, samples);
             ASSERT_TRUE(card.set("scattering.method", "off"));
@@ -129,7 +129,7 @@ TEST_F(Parts, ACardGivesSkinNothingAndTakesNothingFromIt) {
 }
 
 TEST_F(Parts, CutOutStrandsHaveSoftEdgesWithSamples) {
-    Character character = with(card_before_skin(AlphaMode::mask));
+    Portrait character = with(card_before_skin(AlphaMode::mask));
     // Different values in each row, summed over rows: a soft edge has some that neither side of it has.
     const auto greys = [&](std::uint32_t samples) {
         const Image image = draw(character, samples);
@@ -173,7 +173,7 @@ Face two_cards() {
 TEST_F(Parts, ANearerStrandHidesOneThatTheFileHasLater) {
     Face without = two_cards();
     without.primitives[2].index_count = 0;
-    Character one = with(without, "shadows.method", "off"), two = with(two_cards(), "shadows.method", "off");
+    Portrait one = with(without, "shadows.method", "off"), two = with(two_cards(), "shadows.method", "off");
     const Image image = draw(one, 1);
     const std::vector<bool> unchanged = same(image, draw(two, 1));
     std::size_t changed = 0;
@@ -185,8 +185,8 @@ TEST_F(Parts, ANearerStrandHidesOneThatTheFileHasLater) {
 TEST_F(Parts, OpaqueStrandsCastShadows) {
     Face bald = card_before_skin(AlphaMode::blend);
     bald.primitives[1].index_count = 0;
-    Character card = with(card_before_skin(AlphaMode::blend), "shadows.method", "off"),
-              none = with(bald, "shadows.method", "off");
+    Portrait card = with(card_before_skin(AlphaMode::blend), "shadows.method", "off"),
+             none = with(bald, "shadows.method", "off");
     const std::vector<bool> beside = same(draw(card, 1), draw(none, 1));
     ASSERT_TRUE(card.set("shadows.method", "maps"));
     ASSERT_TRUE(none.set("shadows.method", "maps"));
@@ -287,8 +287,8 @@ TEST_F(Parts, EyesAreDarkerBelowTheirUpperLidAndTheIrisLiesDeep) {
     sky.sky_radiance_linear = sky.ground_radiance_linear = glm::vec3(1);
     const Offscreen offscreen = make_offscreen(160, 80, Output::linear_hdr);
     const auto picture = [&](const char* name, const char* value, float yaw) {
-        Character character = with(two_eyes(), name, value);
-        View view = test::framed_view(character, offscreen);
+        Portrait character = with(two_eyes(), name, value);
+        ViewFrame view = test::framed_view(character, offscreen);
         const glm::vec3 from(0.1F * std::sin(yaw), 0, 0.1F * std::cos(yaw));
         view.camera.view_from_world = glm::lookAt(from, glm::vec3(0), glm::vec3(0, 1, 0));
         view.camera.clip_from_view = glm::ortho(-0.048F, 0.048F, -0.024F, 0.024F, 0.01F, 0.3F);

@@ -41,7 +41,7 @@ private:
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-Image picture_of(const Device& device, Character& character) {
+Image picture_of(const Device& device, Portrait& character) {
     const Result<Offscreen> offscreen = Offscreen::create(device, 40, 40, Output::display_srgb);
     EXPECT_TRUE(offscreen);
     return test::draw(character, *offscreen);
@@ -66,7 +66,7 @@ TEST(AdoptCurrent, AContextThatIsNotOpenGl45IsAnError) {
 
 TEST_F(Devices, AnAdoptedContextDrawsWhatAnOwnOneDraws) {
     const Face face = test::make_face({.targets = 2});
-    Character own = make_character(face);
+    Portrait own = make_character(face);
     const Image expected = picture_of(device_, own);
 
     const HostContext host;
@@ -75,7 +75,7 @@ TEST_F(Devices, AnAdoptedContextDrawsWhatAnOwnOneDraws) {
     ASSERT_TRUE(adopted) << adopted.error().message;
     EXPECT_TRUE(host.is_current());
     {
-        Character character = make_character(*adopted, face);
+        Portrait character = make_character(*adopted, face);
         EXPECT_EQ(picture_of(*adopted, character).bytes, expected.bytes);
         EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     }
@@ -87,19 +87,19 @@ TEST_F(Devices, TwoDevicesAndTwoCharactersLiveSideBySide) {
     const Face one = test::make_face({.targets = 2, .seed = 1}), two = test::make_face({.targets = 2, .seed = 9});
     Image expected[2];
     {
-        Character character = make_character(one);
+        Portrait character = make_character(one);
         test::set_weights(character, {1, 0});
         expected[0] = picture_of(device_, character);
     }
     {
-        Character character = make_character(two);
+        Portrait character = make_character(two);
         test::set_weights(character, {1, 1});
         expected[1] = picture_of(device_, character);
     }
     ASSERT_NE(expected[0].bytes, expected[1].bytes);
 
-    Character on_first = make_character(device_, one), on_second = make_character(other, two);
-    Character also_on_first = make_character(device_, two);
+    Portrait on_first = make_character(device_, one), on_second = make_character(other, two);
+    Portrait also_on_first = make_character(device_, two);
     for (int frame = 0; frame < 2; ++frame) {
         test::set_weights(on_first, {1, 0});
         test::set_weights(on_second, {1, 1});
@@ -113,7 +113,7 @@ TEST_F(Devices, TwoDevicesAndTwoCharactersLiveSideBySide) {
 
 TEST_F(Devices, ACharacterOutlivesTheDeviceVariable) {
     std::optional<Device> handle = make_device();
-    Character character = make_character(*handle, test::make_face({.targets = 1}));
+    Portrait character = make_character(*handle, test::make_face({.targets = 1}));
     const Result<Offscreen> offscreen = Offscreen::create(*handle, 40, 40, Output::display_srgb);
     ASSERT_TRUE(offscreen);
     const Image before = test::draw(character, *offscreen);
@@ -125,8 +125,8 @@ TEST_F(Devices, AssigningOverACharacterDeletesItsObjectsInTheirOwnContext) {
     // Names of objects are counted alike in both contexts: deleting those of one in the other would hit the survivor.
     const Device other = make_device();
     const Face face = test::make_face({.targets = 1});
-    Character on_first = make_character(device_, face), on_second = make_character(other, face);
-    std::optional<Character> survivor = make_character(other, face);
+    Portrait on_first = make_character(device_, face), on_second = make_character(other, face);
+    std::optional<Portrait> survivor = make_character(other, face);
     const Image expected = picture_of(other, *survivor);
     on_first = std::move(on_second);  // `other` is current here, and the objects that go are of the first device
     EXPECT_EQ(picture_of(other, *survivor).bytes, expected.bytes);
@@ -136,7 +136,7 @@ TEST_F(Devices, AssigningOverACharacterDeletesItsObjectsInTheirOwnContext) {
 
 TEST_F(Devices, AssigningOverAnOffscreenDeletesItsObjectsInTheirOwnContext) {
     const Device other = make_device();
-    Character character = make_character(other, test::make_face({.targets = 1}));
+    Portrait character = make_character(other, test::make_face({.targets = 1}));
     const Image expected = picture_of(other, character);
     Offscreen on_first = make_offscreen(40, 40);
     Result<Offscreen> on_second = Offscreen::create(other, 40, 40, Output::display_srgb);
@@ -153,7 +153,7 @@ TEST_F(Devices, AssigningOverAnOffscreenDeletesItsObjectsInTheirOwnContext) {
 TEST_F(Devices, ASecondCharacterCompilesNothing) {
     const Face face = test::make_face({.targets = 1, .joints = true});
     const auto draw_all = [&] {
-        Character character = make_character(face);
+        Portrait character = make_character(face);
         for (const char* mode : {"none", "msaa4", "mlaa", "smaa_1x", "smaa_4x"}) {
             ASSERT_TRUE(character.set("antialiasing.mode", mode));
             for (const float weight : {0.0F, 1.0F}) {
@@ -171,11 +171,11 @@ TEST_F(Devices, ASecondCharacterCompilesNothing) {
 
 /// Each has a context of its own, and programs are not shared between contexts.
 TEST_F(Devices, EachKeepsItsOwnPrograms) {
-    Character first = make_character(test::make_face({.targets = 1}));
+    Portrait first = make_character(test::make_face({.targets = 1}));
     const std::size_t of_first = gl::ProgramCache::current()->size();
     const Device other = make_device();
     EXPECT_EQ(gl::ProgramCache::current()->size(), 0U);
-    Character second = make_character(other, test::make_face({.targets = 1}));
+    Portrait second = make_character(other, test::make_face({.targets = 1}));
     EXPECT_EQ(gl::ProgramCache::current()->size(), of_first);
     EXPECT_EQ(picture_of(device_, first).bytes, picture_of(other, second).bytes);
 }

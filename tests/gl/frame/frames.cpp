@@ -6,8 +6,9 @@
 #include <functional>
 #include <limits>
 
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -38,7 +39,7 @@ class Frames : public test::GlTest {};
 /// Of a place in a square picture, from -1 to 1.
 glm::vec2 seen_at(const OrbitCamera& orbit, glm::vec3 place) {
     const Camera camera = orbit.camera(1);
-    const glm::vec4 clip = camera.clip_from_view * camera.view_from_world * glm::vec4(place, 1);
+    const glm::vec4 clip = camera.clip_from_view * glm::mat4(camera.view_from_world) * glm::vec4(place, 1);
     return glm::vec2(clip) / clip.w;
 }
 
@@ -54,7 +55,7 @@ TEST(Framing, ABustIsFramedByItsHeadInAnyUnit) {
         // Both planes leave the whole bust in.
         const Camera camera = orbit.camera(1);
         for (const glm::vec3 corner : {bust.low, bust.high}) {
-            const glm::vec4 clip = camera.clip_from_view * camera.view_from_world * glm::vec4(corner, 1);
+            const glm::vec4 clip = camera.clip_from_view * glm::mat4(camera.view_from_world) * glm::vec4(corner, 1);
             EXPECT_LE(std::abs(clip.z), clip.w);
         }
     }
@@ -63,7 +64,7 @@ TEST(Framing, ABustIsFramedByItsHeadInAnyUnit) {
 TEST(Framing, AHeadIsFramedWholeAndNothingIsStillACamera) {
     const Bounds head{glm::vec3(-80, -140, -100), glm::vec3(80, 120, 100)};
     const OrbitCamera orbit = frame_head(head, {1, "its pupils", false}, 1);
-    EXPECT_EQ(orbit.target_world, head.centre());
+    EXPECT_EQ(orbit.target_world, glm::dvec3(head.centre()));
     for (const glm::vec3 corner : {head.low, head.high}) {
         EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(seen_at(orbit, corner)), glm::vec2(1))));
     }
@@ -73,7 +74,7 @@ TEST(Framing, AHeadIsFramedWholeAndNothingIsStillACamera) {
         EXPECT_TRUE(std::isfinite(home.distance) && home.distance > 0);
     }
     const Bounds bust{glm::vec3(-220, -420, -130), glm::vec3(220, 100, 110)};
-    EXPECT_EQ(frame_head(bust, {1, "a guess", true}, 1).target_world, bust.centre());
+    EXPECT_EQ(frame_head(bust, {1, "a guess", true}, 1).target_world, glm::dvec3(bust.centre()));
 }
 
 // --- promise: an exact omission changes no byte
@@ -83,15 +84,15 @@ struct Scene {
     const char* name;
     test::FaceOptions options;
     std::vector<float> weights;
-    std::function<void(Character&)> arrange = [](Character&) {};
+    std::function<void(Portrait&)> arrange = [](Portrait&) {};
 };
 
 std::vector<Scene> scenes() {
-    const auto turn_joint = [](Character& character) {
-        character.pose().nodes[1].rotation = glm::angleAxis(0.5F, glm::vec3(0, 0, 1));
+    const auto turn_joint = [](Portrait& character) {
+        character.pose().nodes[1].rotation = rotation_of(glm::angleAxis(0.5F, glm::vec3(0, 0, 1)));
     };
-    const auto recomputed = [](Character& character) { ASSERT_TRUE(character.set("normals.source", "recomputed")); };
-    const auto in_passes = [](Character& character) { ASSERT_TRUE(character.set("deformation.method", "passes")); };
+    const auto recomputed = [](Portrait& character) { ASSERT_TRUE(character.set("normals.source", "recomputed")); };
+    const auto in_passes = [](Portrait& character) { ASSERT_TRUE(character.set("deformation.method", "passes")); };
     return {
         {"at rest", {.targets = 4, .normal_deltas = true}, {0, 0, 0, 0}},
         {"at rest without authored normals", {.targets = 4, .seam = true, .normal_map = true}, {0, 0, 0, 0}},
@@ -116,13 +117,13 @@ TEST_F(Frames, ForcingEveryEffectChangesNoByte) {
         const Face face = make_face(scene.options);
         for (const Output output : {Output::display_srgb, Output::linear_hdr}) {
             const Offscreen offscreen = make_offscreen(48, 48, output);
-            Character plain = make_character(face), forced = make_character(face);
-            for (Character* character : {&plain, &forced}) {
+            Portrait plain = make_character(face), forced = make_character(face);
+            for (Portrait* character : {&plain, &forced}) {
                 set_weights(*character, scene.weights);
                 scene.arrange(*character);
             }
-            const View view = framed_view(plain, offscreen);
-            View forced_view = view;
+            const ViewFrame view = framed_view(plain, offscreen);
+            ViewFrame forced_view = view;
             forced_view.force_effects = true;
             for (int frame = 0; frame < 2; ++frame) {  // in the second one nothing changed
                 const Image without = draw(plain, offscreen, view);
@@ -138,11 +139,11 @@ TEST_F(Frames, ForcingEveryEffectChangesNoByte) {
 TEST_F(Frames, ForcedAndUnforcedFramesOfOneCharacterMayFollowEachOther) {
     const Face face = make_face({.targets = 3});
     const Offscreen offscreen = make_offscreen(48, 48);
-    Character mixed = make_character(face);
-    View view = framed_view(mixed, offscreen);
+    Portrait mixed = make_character(face);
+    ViewFrame view = framed_view(mixed, offscreen);
     const std::vector<std::vector<float>> weights = {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 1, 0}};
     for (std::size_t frame = 0; frame < weights.size(); ++frame) {
-        Character fresh = make_character(face);
+        Portrait fresh = make_character(face);
         set_weights(mixed, weights[frame]);
         set_weights(fresh, weights[frame]);
         view.force_effects = frame % 2 == 1;
@@ -153,9 +154,9 @@ TEST_F(Frames, ForcedAndUnforcedFramesOfOneCharacterMayFollowEachOther) {
 }
 
 TEST_F(Frames, UnchangedWeightsAreNotDeformedAgain) {
-    Character character = make_character(make_face({.targets = 3}));
+    Portrait character = make_character(make_face({.targets = 3}));
     const Offscreen offscreen = make_offscreen(48, 48);
-    const View view = framed_view(character, offscreen);
+    const ViewFrame view = framed_view(character, offscreen);
     set_weights(character, {0.5F, 0, 1});
     const Image first = draw(character, offscreen, view);
     FrameReport report = character.draw(view);
@@ -176,7 +177,7 @@ TEST_F(Frames, UnchangedWeightsAreNotDeformedAgain) {
     EXPECT_TRUE(effect_of(report, "normals").on);
     ASSERT_NE(pass_of(report, "deform"), nullptr);
     EXPECT_TRUE(pass_of(report, "deform")->ran);
-    EXPECT_EQ(report.active.size(), 2U);
+    EXPECT_EQ(report.characters[0].active.size(), 2U);
     EXPECT_NE(offscreen.read().bytes, first.bytes);
 
     // A setting changed: the result that stands is of other settings.
@@ -185,9 +186,9 @@ TEST_F(Frames, UnchangedWeightsAreNotDeformedAgain) {
 }
 
 TEST_F(Frames, ReportsWhatIsLeftOutAndWhy) {
-    Character character = make_character(make_face({.targets = 2, .normal_deltas = true}));
+    Portrait character = make_character(make_face({.targets = 2, .normal_deltas = true}));
     const Offscreen offscreen = make_offscreen(16, 16);
-    const View view = framed_view(character, offscreen);
+    const ViewFrame view = framed_view(character, offscreen);
     const FrameReport& report = character.draw(view);
     EXPECT_EQ(effect_of(report, "deformation").reason,
               "no target has a weight other than zero: the rest surface is drawn as it is");
@@ -206,7 +207,7 @@ TEST_F(Frames, TwoContextsGiveTheSameBytes) {
     Image images[2];
     const Device* devices[] = {&device_, &other};
     for (std::size_t i = 0; i < 2; ++i) {
-        Character character = make_character(*devices[i], face);
+        Portrait character = make_character(*devices[i], face);
         set_weights(character, {0.4F, 1, 0, -0.2F});
         const Result<Offscreen> offscreen = Offscreen::create(*devices[i], 64, 48, Output::display_srgb);
         ASSERT_TRUE(offscreen);
@@ -218,7 +219,7 @@ TEST_F(Frames, TwoContextsGiveTheSameBytes) {
 }
 
 TEST_F(Frames, AFaceIsNeverBlankAndMovesWhereItShould) {
-    Character character = make_character(make_face({.targets = 1}));
+    Portrait character = make_character(make_face({.targets = 1}));
     const Offscreen offscreen = make_offscreen(64, 64);
     const Image rest = draw(character, offscreen);
     EXPECT_GE(test::colour_count(rest), test::fewest_colours);
@@ -236,13 +237,13 @@ TEST_F(Frames, AFaceIsNeverBlankAndMovesWhereItShould) {
 }
 
 TEST_F(Frames, AViewWithoutPixelsDrawsNothing) {
-    Character character = make_character(make_face({.targets = 1}));
+    Portrait character = make_character(make_face({.targets = 1}));
     const Offscreen offscreen = make_offscreen(16, 16);
-    const View view = framed_view(character, offscreen);
+    const ViewFrame view = framed_view(character, offscreen);
     const Image before = draw(character, offscreen, view);
     set_weights(character, {1});
     for (const auto& [width, height] : {std::pair(0U, 0U), std::pair(16U, 0U), std::pair(0U, 16U)}) {
-        View empty = view;
+        ViewFrame empty = view;
         empty.width = width;
         empty.height = height;
         const FrameReport& report = character.draw(empty);
@@ -277,11 +278,11 @@ double display_from_radiance(double radiance, double exposure) {
 }
 
 TEST_F(Frames, DisplayOutputIsTheCurveOfTheLinearOutput) {
-    Character character = make_character(make_face({.targets = 1}));
+    Portrait character = make_character(make_face({.targets = 1}));
     ASSERT_TRUE(character.set("multisampling.resolve", "average"));  // else each output has its own
     const Offscreen display = make_offscreen(48, 40), linear = make_offscreen(48, 40, Output::linear_hdr);
     for (const float exposure : {0.25F, 1.0F, 6.0F}) {
-        View display_view = framed_view(character, display), linear_view = framed_view(character, linear);
+        ViewFrame display_view = framed_view(character, display), linear_view = framed_view(character, linear);
         display_view.exposure = linear_view.exposure = exposure;
         const Image shown = draw(character, display, display_view), radiance = draw(character, linear, linear_view);
         ASSERT_EQ(shown.bytes.size(), radiance.floats.size());
@@ -300,7 +301,7 @@ TEST_F(Frames, DisplayOutputIsTheCurveOfTheLinearOutput) {
 // -------------------------------------------------------------------------------------------
 
 TEST_F(Frames, AFiniteFrameReportsNothing) {
-    Character character = make_character(make_face({.targets = 2, .joints = true}));
+    Portrait character = make_character(make_face({.targets = 2, .joints = true}));
     set_weights(character, {1, 1});
     const Offscreen offscreen = make_offscreen(32, 32);
     EXPECT_FALSE(character.draw(framed_view(character, offscreen)).not_finite);
@@ -312,7 +313,7 @@ TEST_F(Frames, NamesThePassThatOverflows) {
     face.targets[0].position_deltas = {{0, 3e38F, 0}};
     face.positions[17].y = 3e38F;
     ASSERT_TRUE(validate(face));
-    Character character = make_character(std::move(face));
+    Portrait character = make_character(std::move(face));
     const Offscreen offscreen = make_offscreen(16, 16);
     set_weights(character, {1});
     const FrameReport& report = character.draw(framed_view(character, offscreen));
@@ -326,12 +327,12 @@ TEST_F(Frames, NamesThePassThatOverflows) {
 
 TEST_F(Frames, NamesWhatIsNotFiniteBehindTheLoadersBack) {
     const Face face = make_face({.targets = 1});
-    Character character = make_character(face);
+    Portrait character = make_character(face);
     // The rest buffers are immutable to the CPU, so the damage is copied in on the GPU.
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const gl::Buffer damage = gl::make_buffer(sizeof(nan), &nan);
     const std::uint32_t victim = face.targets[0].vertices[3];
-    glCopyNamedBufferSubData(damage.name(), character.state().stream_out->rest().positions.name(), 0,
+    glCopyNamedBufferSubData(damage.name(), character.state().stream_out.rest().positions.name(), 0,
                              static_cast<GLintptr>(victim * sizeof(glm::vec3) + 2 * sizeof(float)), sizeof(nan));
     const Offscreen offscreen = make_offscreen(16, 16);
     set_weights(character, {1});
@@ -344,10 +345,10 @@ TEST_F(Frames, NamesWhatIsNotFiniteBehindTheLoadersBack) {
 }
 
 TEST_F(Frames, NamesThePixelBeyondHalfPrecision) {
-    Character character = make_character(make_face({.targets = 0}));
+    Portrait character = make_character(make_face({.targets = 0}));
     const Offscreen offscreen = make_offscreen(16, 16);
     for (const std::uint32_t samples : {1U, 4U}) {
-        View view = framed_view(character, offscreen);
+        ViewFrame view = framed_view(character, offscreen);
         view.samples = samples;
         view.background_linear = {0, 1e6F, 0, 1};  // half floats end at 65504
         const FrameReport& report = character.draw(view);
@@ -359,9 +360,9 @@ TEST_F(Frames, NamesThePixelBeyondHalfPrecision) {
 }
 
 TEST_F(Frames, PassesHaveTimesOnlyWhenTheViewAsks) {
-    Character character = make_character(make_face({.targets = 1}));
+    Portrait character = make_character(make_face({.targets = 1}));
     const Offscreen offscreen = make_offscreen(32, 32);
-    View view = framed_view(character, offscreen);
+    ViewFrame view = framed_view(character, offscreen);
     view.check_finite = false;
     set_weights(character, {1});
     for (const PassReport& pass : character.draw(view).passes) EXPECT_EQ(pass.milliseconds, 0) << pass.name;

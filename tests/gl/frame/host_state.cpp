@@ -1,4 +1,4 @@
-// Character::draw leaves the host's GL state as it found it, and is not disturbed by it.
+// Scene::draw leaves the host's GL state as it found it, and is not disturbed by it.
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -324,22 +324,22 @@ TEST_F(HostState, DrawingRestoresEverythingAndIsNotDisturbed) {
         const Offscreen offscreen = make_offscreen(48, 48, output);
         Image expected;
         {
-            Character character = make_character(face);
+            Portrait character = make_character(face);
             test::set_weights(character, {1, 0.5F, 0});
             expected = test::draw(character, offscreen);
-            View view = test::framed_view(character, offscreen);
+            ViewFrame view = test::framed_view(character, offscreen);
             view.background_linear = {1, 0, 0, 1};
             character.draw(view);  // so that what the wild host leaves cannot pass by drawing nothing
         }
         const WildHost host;
         const Snapshot before = take_snapshot();
-        Character character = make_character(face);
-        expect_same(before, take_snapshot(), "Character::create");
+        Portrait character = make_character(face);
+        expect_same(before, take_snapshot(), "Portrait::create");
         test::set_weights(character, {1, 0.5F, 0});
-        View view = test::framed_view(character, offscreen);
+        ViewFrame view = test::framed_view(character, offscreen);
         view.timed = true;
         character.draw(view);
-        expect_same(before, take_snapshot(), "Character::draw");
+        expect_same(before, take_snapshot(), "Scene::draw");
         const Image image = offscreen.read();
         expect_same(before, take_snapshot(), "Offscreen::read");
         EXPECT_EQ(image.bytes, expected.bytes);
@@ -349,8 +349,8 @@ TEST_F(HostState, DrawingRestoresEverythingAndIsNotDisturbed) {
         const Image in_passes = test::draw(character, offscreen);
         EXPECT_EQ(in_passes.bytes, expected.bytes);
         EXPECT_EQ(in_passes.floats, expected.floats);
-        expect_same(before, take_snapshot(), "Character::draw in passes");
-        const Character::Surface surface = character.read_deformed();
+        expect_same(before, take_snapshot(), "Scene::draw in passes");
+        const Scene::Surface surface = character.read_deformed();
         EXPECT_NE(surface.positions, face.positions);
         expect_same(before, take_snapshot(), "Character::read_deformed");
         const Offscreen another = make_offscreen(8, 8);
@@ -363,10 +363,10 @@ TEST_F(HostState, EveryWayToSampleRestoresEverythingAndIsNotDisturbed) {
     for (const auto& [mode, resolve] : {std::pair("msaa4", "hdr"), {"smaa_4x", "average"}}) {
         SCOPED_TRACE(mode);
         const auto two_frames = [&, mode = mode, resolve = resolve](const std::function<void(const char*)>& check) {
-            Character character = make_character(busy_face());
+            Portrait character = make_character(busy_face());
             EXPECT_TRUE(character.set("antialiasing.mode", mode));
             EXPECT_TRUE(character.set("multisampling.resolve", resolve));
-            View view = test::framed_view(character, offscreen);
+            ViewFrame view = test::framed_view(character, offscreen);
             view.check_finite = false;
             character.draw(view);
             check("the first frame");

@@ -8,7 +8,7 @@
 
 #include "rig/light/diffusion_profile.h"
 #include "rig/light/skin_reflectance.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -58,8 +58,8 @@ Face finished(Face face) {
     return face;
 }
 
-View front_view(const Offscreen& offscreen) {
-    View view = offscreen.view();
+ViewFrame front_view(const Offscreen& offscreen) {
+    ViewFrame view = offscreen.view();
     view.samples = 1;
     view.check_finite = true;
     view.camera.view_from_world = glm::lookAt(glm::vec3(0, 0, 0.5F), glm::vec3(0), glm::vec3(0, 1, 0));
@@ -70,8 +70,8 @@ View front_view(const Offscreen& offscreen) {
 
 class Lights : public test::GlTest {
 protected:
-    Character plain(Face face) const {
-        Character character = make_character(std::move(face));
+    Portrait plain(Face face) const {
+        Portrait character = make_character(std::move(face));
         EXPECT_TRUE(character.set("scattering.method", "off"));
         EXPECT_TRUE(character.set("scattering.millimetres_a_unit", "1000"));
         EXPECT_TRUE(character.set("reflection.intensity", "0"));
@@ -103,9 +103,9 @@ TEST_F(Lights, ASlabAndAWedgeLetThroughWhatTheProfileSays) {
         Face face;
         add_block(face, static_cast<float>(left_mm / 1000), static_cast<float>(right_mm / 1000));
         for (const bool derived : {true, false}) {
-            Character character = plain(finished(face));
+            Portrait character = plain(finished(face));
             ASSERT_TRUE(character.set("translucency.attenuation", derived ? "derived" : "printed"));
-            View view = front_view(offscreen);
+            ViewFrame view = front_view(offscreen);
             view.lighting = &behind;
             const Image image = test::draw(character, offscreen, view);
             for (std::uint32_t x = 6; x < side - 6; x += 5) {
@@ -134,10 +134,10 @@ TEST_F(Lights, ThroughASlabSlantedLightGoesItsWholeWay) {
             for (const double drawn_in_mm : {0.5, 1.0}) {
                 const float angle = degrees / 57.29578F;
                 const Lighting behind = from_direction({std::sin(angle), 0, -std::cos(angle)}, glm::vec3(1));
-                Character character = plain(finished(face));
+                Portrait character = plain(finished(face));
                 ASSERT_TRUE(character.set("translucency.strength", std::to_string(strength)));
                 ASSERT_TRUE(character.set("translucency.drawn_in_mm", std::to_string(drawn_in_mm)));
-                View view = front_view(offscreen);
+                ViewFrame view = front_view(offscreen);
                 view.lighting = &behind;
                 const glm::vec3 drawn = pixel(test::draw(character, offscreen, view), side / 2, side / 2);
                 const double cosine = std::cos(static_cast<double>(angle));
@@ -157,8 +157,8 @@ TEST_F(Lights, ThroughTheOpenBackOfAShellComesNone) {
     Face face;
     add_quad(face, {-0.03F, -0.03F, 0}, {0.03F, -0.03F, 0}, {0.03F, 0.03F, 0}, {-0.03F, 0.03F, 0});
     const Lighting behind = from_direction({0, 0, -1}, glm::vec3(1));
-    Character character = plain(finished(face));
-    View view = front_view(offscreen);
+    Portrait character = plain(finished(face));
+    ViewFrame view = front_view(offscreen);
     view.lighting = &behind;
     const Image image = test::draw(character, offscreen, view);
     EXPECT_EQ(pixel(image, side / 2, side / 2), glm::vec3(0));
@@ -178,11 +178,11 @@ TEST_F(Lights, TheSurfaceReflectsAndLetsInWhatItsTwinSays) {
             for (const glm::vec3 towards : {glm::vec3(0, 0, 1), glm::vec3(-0.6F, 0, 0.8F), glm::vec3(-0.5F, 0.1F, 0.5F),
                                             glm::vec3(0.7F, 0.3F, 0.4F), glm::vec3(-0.95F, 0, 0.3F)}) {
                 const Lighting lighting = from_direction(towards, glm::vec3(1));
-                Character character = plain(finished(face));
+                Portrait character = plain(finished(face));
                 ASSERT_TRUE(character.set("shadows.method", "off"));
                 ASSERT_TRUE(character.set("reflection.intensity", std::to_string(intensity)));
                 ASSERT_TRUE(character.set("reflection.roughness", std::to_string(0.5 * roughness)));
-                View view = front_view(offscreen);
+                ViewFrame view = front_view(offscreen);
                 view.camera.view_from_world = glm::lookAt(glm::vec3(eye), glm::vec3(0), glm::vec3(0, 1, 0));
                 view.lighting = &lighting;
                 const Image image = test::draw(character, offscreen, view);
@@ -208,9 +208,9 @@ TEST_F(Lights, ASlabOfMarbleLetsThroughWhatMarbleDoes) {
     const Lighting behind = from_direction({0, 0, -1}, glm::vec3(1));
     Face face;
     add_block(face, 0.004F, 0.004F);
-    Character character = plain(finished(face));
+    Portrait character = plain(finished(face));
     ASSERT_TRUE(character.set("scattering.material", "marble"));
-    View view = front_view(offscreen);
+    ViewFrame view = front_view(offscreen);
     view.lighting = &behind;
     const glm::vec3 drawn = pixel(test::draw(character, offscreen, view), side / 2, side / 2);
     const glm::dvec3 through = transmittance(gaussians_of(measured_materials()[0]), 4);
@@ -233,9 +233,9 @@ TEST_F(Lights, TheEdgeOfAShadowIsAsWideAsTheLight) {
     for (const float tangent : {0.04F, 0.1F}) {
         Lighting lighting = from_direction({1, 0, 1}, glm::vec3(1));
         lighting.lights[0].size = std::atan(tangent);
-        Character character = plain(finished(face));
+        Portrait character = plain(finished(face));
         ASSERT_TRUE(character.set("translucency.strength", "0"));
-        View view = front_view(offscreen);
+        ViewFrame view = front_view(offscreen);
         view.lighting = &lighting;
         const Image image = test::draw(character, offscreen, view);
         // Across the beam the disc is tangent * distance wide; the floor sees it
@@ -273,9 +273,9 @@ TEST_F(Lights, MapsOfRoughnessAndReflectionAreReadWhereGltfHasThem) {
             face.images.push_back(image);
         }
         face.materials[0] = material;
-        Character character = make_character(face);
+        Portrait character = make_character(face);
         EXPECT_TRUE(character.set("scattering.method", "off"));
-        View view = front_view(offscreen);
+        ViewFrame view = front_view(offscreen);
         view.lighting = &lighting;
         return pixel(test::draw(character, offscreen, view), side / 2, side / 2).r;
     };
@@ -303,10 +303,10 @@ TEST_F(Lights, ASurfaceInTheLightHasNoFreckles) {
         for (const float size : {0.0F, 0.06F, 0.4F}) {
             Lighting lighting = from_direction(towards, glm::vec3(1));
             lighting.lights[0].size = size;
-            Character with = plain(finished(face)), without = plain(finished(face));
+            Portrait with = plain(finished(face)), without = plain(finished(face));
             ASSERT_TRUE(without.set("shadows.method", "off"));
             ASSERT_TRUE(with.set("translucency.strength", "0"));
-            View view = front_view(offscreen);
+            ViewFrame view = front_view(offscreen);
             view.lighting = &lighting;
             const Image shadowed = test::draw(with, offscreen, view), free = test::draw(without, offscreen, view);
             const float n_l = glm::normalize(towards).z;
@@ -343,9 +343,9 @@ TEST_F(Lights, AnOutlineIsLitAsItsSurfaceAndNotAsWhatLiesBeyondIt) {
     // A side that is seen has normals up to half a side beyond a right angle.
     const float most = std::sin((0.5F * 360 / sides + 1.7F) / 57.29578F);
     for (const std::uint32_t samples : {1U, 2U, 4U}) {
-        Character character = plain(finished(face));
+        Portrait character = plain(finished(face));
         ASSERT_TRUE(character.set("shadows.method", "off"));
-        View view = front_view(offscreen);
+        ViewFrame view = front_view(offscreen);
         view.lighting = &behind;
         view.samples = samples;
         float brightest = 0;
@@ -365,9 +365,9 @@ TEST_F(Lights, AShadowFallsWhereTheLightIsBlocked) {
     const float z = 0.01F;
     add_quad(face, {0, -0.03F, z}, {0.03F, -0.03F, z}, {0.03F, 0.03F, z}, {0, 0.03F, z});
     const Lighting lighting = from_direction({1, 0, 1}, glm::vec3(1));
-    Character character = plain(finished(face));
+    Portrait character = plain(finished(face));
     ASSERT_TRUE(character.set("translucency.strength", "0"));
-    View view = front_view(offscreen);
+    ViewFrame view = front_view(offscreen);
     view.lighting = &lighting;
     const Image image = test::draw(character, offscreen, view);
     // The plate's left edge at x = 0 throws its shadow 10 mm to the left: from -10 mm on it is dark.
@@ -389,9 +389,9 @@ TEST_F(Lights, EveryLightHasItsOwnShadow) {
     add_quad(face, {0, -0.03F, z}, {0.03F, -0.03F, z}, {0.03F, 0.03F, z}, {0, 0.03F, z});
     Lighting lighting = from_direction({1, 0, 1}, {1, 0, 0});
     lighting.lights.push_back(from_direction({-1, 0, 1}, {0, 1, 0}).lights[0]);
-    Character character = plain(finished(face));
+    Portrait character = plain(finished(face));
     ASSERT_TRUE(character.set("translucency.strength", "0"));
-    View view = front_view(offscreen);
+    ViewFrame view = front_view(offscreen);
     view.lighting = &lighting;
     const Image image = test::draw(character, offscreen, view);
     const double pixel_mm = 60.0 / side;
@@ -413,9 +413,9 @@ TEST_F(Lights, PointAndSpotLightsFollowTheInverseSquareAndTheirCone) {
     light.position_world = {0, 0, 0.2F};
     light.reference_distance = 0.2F;
     lighting.lights = {light};
-    Character character = plain(finished(face));
+    Portrait character = plain(finished(face));
     ASSERT_TRUE(character.set("translucency.strength", "0"));
-    View view = front_view(offscreen);
+    ViewFrame view = front_view(offscreen);
     view.lighting = &lighting;
     Image image = test::draw(character, offscreen, view);
     for (const std::uint32_t x : {side / 2, 8U, 40U}) {
@@ -456,9 +456,9 @@ TEST_F(Lights, AWhiteFurnaceStaysWhite) {
     for (const char* scattering : {"off", "separable"}) {
         for (const float roughness : {0.2F, 0.5F, 1.0F}) {
             face.materials[0].roughness = roughness;
-            Character character = make_character(face);
+            Portrait character = make_character(face);
             ASSERT_TRUE(character.set("scattering.method", scattering));
-            View view = test::framed_view(character, offscreen);
+            ViewFrame view = test::framed_view(character, offscreen);
             view.samples = 1;
             view.lighting = &lighting;
             view.background_linear = glm::vec4(0, 0, 0, 1);
@@ -490,9 +490,9 @@ TEST_F(Lights, AnEnvironmentTurnsAndShinesFromItsSide) {
     ASSERT_TRUE(environment);
     Face face;
     add_block(face, 0.06F, 0.06F);
-    Character character = plain(finished(face));
+    Portrait character = plain(finished(face));
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
-    View view = front_view(offscreen);
+    ViewFrame view = front_view(offscreen);
     Lighting lighting;
     lighting.environment = *environment;
     view.lighting = &lighting;
@@ -525,9 +525,9 @@ TEST_F(Lights, ASurfaceMirrorsWhatStandsInTheMirrorsDirectionAsSharplyAsItIsSmoo
         face = finished(std::move(face));
         face.materials[0].base_color_linear = glm::vec4(0, 0, 0, 1);
         face.materials[0].roughness = roughness;
-        Character character = plain(std::move(face));
+        Portrait character = plain(std::move(face));
         EXPECT_TRUE(character.set("reflection.intensity", "1"));
-        View view = front_view(offscreen);
+        ViewFrame view = front_view(offscreen);
         view.camera.view_from_world = glm::lookAt(glm::vec3(0, eye_height, 0.4F), glm::vec3(0), glm::vec3(0, 1, 0));
         view.lighting = &lighting;
         return pixel(test::draw(character, offscreen, view), side / 2, side / 2).r;
@@ -552,9 +552,9 @@ TEST_F(Lights, ASurfaceMirrorsWhatStandsInTheMirrorsDirectionAsSharplyAsItIsSmoo
 
 TEST_F(Lights, WithoutLightTheFaceIsBlackAndScatteringIsLeftOut) {
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
-    Character character = make_character(test::make_face({.targets = 0}));
+    Portrait character = make_character(test::make_face({.targets = 0}));
     const Lighting none;
-    View view = test::framed_view(character, offscreen);
+    ViewFrame view = test::framed_view(character, offscreen);
     view.lighting = &none;
     view.background_linear = glm::vec4(0, 0, 0, 1);
     for (const float value : test::draw(character, offscreen, view).floats) EXPECT_TRUE(value == 0 || value == 1);
@@ -570,9 +570,9 @@ TEST_F(Lights, WithoutLightTheFaceIsBlackAndScatteringIsLeftOut) {
 
 TEST_F(Lights, ShadowMapsStandWhileNothingMoves) {
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
-    Character character = make_character(test::make_face({.targets = 1}));
+    Portrait character = make_character(test::make_face({.targets = 1}));
     const Lighting lighting = from_direction({1, 1, 1}, glm::vec3(1));
-    View view = test::framed_view(character, offscreen);
+    ViewFrame view = test::framed_view(character, offscreen);
     view.lighting = &lighting;
     const auto drawn = [&] {
         const FrameReport& report = character.draw(view);

@@ -8,10 +8,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "runtime/frame/character_state.h"
 #include "runtime/frame/effect.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/light/environment_map.h"
 #include "tests/gl_fixture.h"
+#include "tests/rotation.h"
 
 namespace blush {
 namespace {
@@ -96,16 +97,16 @@ glm::dvec3 least_of(const Environment& environment) {
 
 class OcclusionOnTheGpu : public test::GlTest {
 protected:
-    Character plain(Face face, std::optional<OcclusionSet> set) const {
-        Character character = make_character(std::move(face));
+    Portrait plain(Face face, std::optional<OcclusionSet> set) const {
+        Portrait character = make_character(std::move(face));
         EXPECT_TRUE(character.set("scattering.method", "off"));
         EXPECT_TRUE(character.set("reflection.intensity", "0"));
         EXPECT_TRUE(character.set("occlusion.bounces", "off"));
         character.set_occlusion(std::move(set));
         return character;
     }
-    View view_of(const Offscreen& offscreen, const Lighting& lighting) const {
-        View view = offscreen.view();
+    ViewFrame view_of(const Offscreen& offscreen, const Lighting& lighting) const {
+        ViewFrame view = offscreen.view();
         view.samples = 1;
         view.check_finite = true;
         view.camera.view_from_world = glm::lookAt(glm::vec3(0, 0, 0.5F), glm::vec3(0), glm::vec3(0, 1, 0));
@@ -139,15 +140,16 @@ TEST_F(OcclusionOnTheGpu, EqualsTheTwinAtRestDeformedAndTurned) {
         for (const float yaw : {0.0F, 0.5F}) {
             for (const float turn : {0.0F, 1.0F}) {
                 Face face = square();
-                face.nodes[0].rest.rotation = glm::angleAxis(yaw, glm::normalize(glm::vec3(0.2F, 1, 0.1F)));
-                Character character = plain(face, same_everywhere(face, {{"", hidden}}));
+                face.nodes[0].rest.rotation =
+                    rotation_of(glm::angleAxis(yaw, glm::normalize(glm::vec3(0.2F, 1, 0.1F))));
+                Portrait character = plain(face, same_everywhere(face, {{"", hidden}}));
                 test::set_weights(character, {bend, 0});
                 lighting.environment_turn_radians = turn;
-                const View view = view_of(offscreen, lighting);
+                const ViewFrame view = view_of(offscreen, lighting);
                 const glm::dvec3 drawn = middle(test::draw(character, offscreen, view));
 
-                const Character::Surface surface = character.read_deformed();
-                const glm::dmat3 node(glm::mat3_cast(face.nodes[0].rest.rotation));
+                const Scene::Surface surface = character.read_deformed();
+                const glm::dmat3 node(glm::mat3_cast(glm_of(face.nodes[0].rest.rotation)));
                 const glm::dmat3 frame = vertex_frame(glm::normalize(node * glm::dvec3(surface.normals[0])),
                                                       node * glm::dvec3(surface.tangents[0]));
                 const glm::dmat3 about_y(glm::rotate(glm::dmat4(1), static_cast<double>(turn), glm::dvec3(0, 1, 0)));
@@ -169,14 +171,14 @@ TEST_F(OcclusionOnTheGpu, PosesBlendByTheirTargets) {
     const Face face = square();
     const LightTransfer hidden = half_hidden(),
                         open = transfer_of(cosine_directions(16), std::vector<std::uint8_t>(16, 0));
-    Character character = plain(face, same_everywhere(face, {{"", hidden}, {"opened", open}}));
-    const View view = view_of(offscreen, lighting);
+    Portrait character = plain(face, same_everywhere(face, {{"", hidden}, {"opened", open}}));
+    const ViewFrame view = view_of(offscreen, lighting);
     std::vector<glm::dvec3> seen;
     for (const float weight : {0.0F, 0.5F, 1.0F}) {
         test::set_weights(character, {0, weight});
         seen.push_back(middle(test::draw(character, offscreen, view)));
     }
-    Character without = plain(face, std::nullopt);
+    Portrait without = plain(face, std::nullopt);
     const glm::dvec3 free = middle(test::draw(without, offscreen, view));
     LightTransfer blended{};
     for (std::size_t i = 0; i < 9; ++i) blended[i] = 0.5F * (hidden[i] + open[i]);
@@ -195,8 +197,8 @@ TEST_F(OcclusionOnTheGpu, SkyAndGroundAreHiddenToo) {
     lighting.sky_radiance_linear = {0.8F, 0.9F, 1};
     lighting.ground_radiance_linear = {0.3F, 0.2F, 0.1F};
     const Face face = square();
-    Character character = plain(face, same_everywhere(face, {{"", half_hidden()}}));
-    const View view = view_of(offscreen, lighting);
+    Portrait character = plain(face, same_everywhere(face, {{"", half_hidden()}}));
+    const ViewFrame view = view_of(offscreen, lighting);
     const glm::dvec3 drawn = middle(test::draw(character, offscreen, view));
     Sh9Color light{};  // of a gradient between them
     const Sh9 up = sh_basis({0, 1, 0});
@@ -208,7 +210,7 @@ TEST_F(OcclusionOnTheGpu, SkyAndGroundAreHiddenToo) {
 
     Face coloured = face;
     coloured.materials[0].base_color_linear = {0.8F, 0.5F, 0.2F, 1};
-    Character bouncing = plain(coloured, same_everywhere(face, {{"", half_hidden()}}));
+    Portrait bouncing = plain(coloured, same_everywhere(face, {{"", half_hidden()}}));
     ASSERT_TRUE(bouncing.set("occlusion.bounces", "on"));
     const glm::dvec3 albedo(0.8, 0.5, 0.2), lit = middle(test::draw(bouncing, offscreen, view));
     const glm::dvec3 twin = albedo * with_bounces(expected, openness(half_hidden()), albedo);
@@ -220,8 +222,8 @@ TEST_F(OcclusionOnTheGpu, AMirrorShowsTheOpenShareOfItsSurroundings) {
     const Lighting lighting = room();
     Face face = square();
     face.materials[0].base_color_linear = {0, 0, 0, 1};
-    const View view = view_of(offscreen, lighting);
-    Character hidden = plain(face, same_everywhere(face, {{"", half_hidden()}})), open = plain(face, std::nullopt);
+    const ViewFrame view = view_of(offscreen, lighting);
+    Portrait hidden = plain(face, same_everywhere(face, {{"", half_hidden()}})), open = plain(face, std::nullopt);
     ASSERT_TRUE(hidden.set("reflection.intensity", "1"));
     ASSERT_TRUE(open.set("reflection.intensity", "1"));
     const glm::dvec3 all = middle(test::draw(open, offscreen, view)),
@@ -234,9 +236,9 @@ TEST_F(OcclusionOnTheGpu, AnOpenFaceIsDrawnAsWithoutAndLampsAreNotHidden) {
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);
     const Face face = square();
     const LightTransfer open = transfer_of(cosine_directions(16), std::vector<std::uint8_t>(16, 0));
-    Character with = plain(face, same_everywhere(face, {{"", open}})), without = plain(face, std::nullopt);
+    Portrait with = plain(face, same_everywhere(face, {{"", open}})), without = plain(face, std::nullopt);
     Lighting lighting = room();
-    View view = view_of(offscreen, lighting);
+    ViewFrame view = view_of(offscreen, lighting);
     const Image a = test::draw(with, offscreen, view), b = test::draw(without, offscreen, view);
     for (std::size_t i = 0; i < a.floats.size(); ++i) EXPECT_NEAR(a.floats[i], b.floats[i], 1e-3F);
 
@@ -245,7 +247,7 @@ TEST_F(OcclusionOnTheGpu, AnOpenFaceIsDrawnAsWithoutAndLampsAreNotHidden) {
     light.direction_world = {0, 0, -1};
     lamp.lights = {light};
     view = view_of(offscreen, lamp);
-    Character dark = plain(face, same_everywhere(face, {{"", half_hidden()}}));
+    Portrait dark = plain(face, same_everywhere(face, {{"", half_hidden()}}));
     EXPECT_EQ(test::draw(dark, offscreen, view).floats, test::draw(without, offscreen, view).floats);
     EXPECT_FALSE(dark.state().on(occlusion_effect));
     view.force_effects = true;

@@ -8,7 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "rig/light/scatter_image.h"
-#include "runtime/frame/character_state.h"
+#include "runtime/frame/frame_state.h"
 #include "runtime/light/scatter_passes.h"
 #include "tests/gl_fixture.h"
 
@@ -193,8 +193,8 @@ Face half_skin() {
     return face;
 }
 
-View close_view(const Character& character, const Offscreen& offscreen, std::uint32_t samples) {
-    View view = test::framed_view(character, offscreen);
+ViewFrame close_view(const Portrait& character, const Offscreen& offscreen, std::uint32_t samples) {
+    ViewFrame view = test::framed_view(character, offscreen);
     OrbitCamera camera = character.framing(1);
     camera.distance *= 0.5F;
     view.camera = camera.camera(1);
@@ -203,13 +203,13 @@ View close_view(const Character& character, const Offscreen& offscreen, std::uin
 }
 
 TEST_F(Scattering, NoOtherPixelChangesByABit) {
-    Character with = make_character(half_skin()), without = make_character(half_skin());
+    Portrait with = make_character(half_skin()), without = make_character(half_skin());
     ASSERT_TRUE(with.set("scattering.millimetres_a_unit", "1000"));
     ASSERT_TRUE(without.set("scattering.millimetres_a_unit", "1000"));
     ASSERT_TRUE(without.set("scattering.method", "off"));
     const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
     for (const std::uint32_t samples : {1U, 4U}) {
-        const View view = close_view(with, offscreen, samples);
+        const ViewFrame view = close_view(with, offscreen, samples);
         const Image on = test::draw(with, offscreen, view), off = test::draw(without, offscreen, view);
         std::size_t differing_skin = 0, same = 0;
         for (std::uint32_t y = 0; y < 64; ++y) {
@@ -235,8 +235,8 @@ TEST_F(Scattering, NoLightOfABrightBackgroundReachesTheSkin) {
     for (glm::vec3& position : face.positions) position *= 0.1F;
     const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
     for (const std::uint32_t samples : {1U, 2U, 4U}) {
-        Character character = make_character(face);
-        View view = test::framed_view(character, offscreen);
+        Portrait character = make_character(face);
+        ViewFrame view = test::framed_view(character, offscreen);
         view.samples = samples;
         view.background_linear = glm::vec4(0, 0, 0, 1);
         const Image dark = test::draw(character, offscreen, view);
@@ -257,14 +257,14 @@ TEST_F(Scattering, NoLightOfABrightBackgroundReachesTheSkin) {
 }
 
 TEST_F(Scattering, LeftOutFarAwayItChangesThePictureWithinItsBound) {
-    Character character = make_character(test::make_face({.targets = 0, .normal_map = true}));
+    Portrait character = make_character(test::make_face({.targets = 0, .normal_map = true}));
     const Offscreen offscreen = make_offscreen(48, 48, Output::linear_hdr);
-    View view = test::framed_view(character, offscreen);
+    ViewFrame view = test::framed_view(character, offscreen);
     OrbitCamera camera = character.framing(1);
     camera.distance *= 3.8F;  // eight millimetres of reach within half a pixel
     view.camera = camera.camera(1);
     const Image without = test::draw(character, offscreen, view);
-    const auto& effects = character.state().report.effects;
+    const auto& effects = character.report().effects;
     const auto report = *std::ranges::find(effects, "scattering", &EffectReport::effect);
     ASSERT_FALSE(report.on);
     EXPECT_EQ(report.reason, "the kernel ends within half a pixel of its centre");
@@ -320,12 +320,12 @@ TEST_F(Scattering, PaintIsSharpWhereLightMeetsItOnItsWayOutAndSoftWhereOnItsWayI
     lighting.ground_radiance_linear = glm::vec3(1);
     const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
     const auto drawn = [&](const char* method, const char* before) {
-        Character character = make_character(face);
+        Portrait character = make_character(face);
         EXPECT_TRUE(character.set("scattering.method", method));
         EXPECT_TRUE(character.set("scattering.albedo_before", before));
         EXPECT_TRUE(character.set("scattering.millimetres_a_unit", "20"));
         EXPECT_TRUE(character.set("reflection.intensity", "0"));
-        View view = test::framed_view(character, offscreen);
+        ViewFrame view = test::framed_view(character, offscreen);
         view.samples = 1;
         view.lighting = &lighting;
         return test::draw(character, offscreen, view);
@@ -357,11 +357,11 @@ protected:
         face.images.push_back(image);
         face.materials[0].base_color_srgb.image = 0;
         face.materials[0].scatter_by_alpha = by_alpha;
-        Character character = make_character(face);
+        Portrait character = make_character(face);
         EXPECT_TRUE(character.set("scattering.method", method));
         EXPECT_TRUE(character.set("scattering.millimetres_a_unit", "20"));  // some pixels a millimetre
         const Offscreen offscreen = make_offscreen(64, 64, Output::linear_hdr);
-        View view = test::framed_view(character, offscreen);
+        ViewFrame view = test::framed_view(character, offscreen);
         view.samples = 1;
         Lighting lighting;
         LightSource light;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "tests/rotation.h"
 #include "tests/test_faces.h"
 
 namespace blush {
@@ -57,9 +58,9 @@ std::vector<glm::mat4> world_of(const Face& face, const HeadAndEyes& pivots, con
     pose.head = head;
     pose.left_eye = left_eye;
     pose.right_eye = right_eye;
-    std::vector<glm::mat4> world(face.nodes.size());
-    world_from_nodes(face, pose, pivots, world);
-    return world;
+    std::vector<glm::dmat4> placed(face.nodes.size());
+    place_nodes(face, pose, pivots, placed);
+    return {placed.begin(), placed.end()};
 }
 
 glm::vec3 at(const glm::mat4& world_from_node, glm::vec3 point = glm::vec3(0)) {
@@ -168,7 +169,7 @@ TEST(WorldFromNodes, ParentsComeFirstAndMatricesReplaceTransforms) {
         node.parent = n - 1;
         node.rest.translation = {1, 0, 0};
         node.rest.scale = glm::vec3(2);
-        node.rest.rotation = glm::angleAxis(glm::radians(90.0F), glm::vec3(0, 0, 1));
+        node.rest.rotation = rotation_of(glm::angleAxis(glm::radians(90.0F), glm::vec3(0, 0, 1)));
         face.nodes.push_back(node);
     }
     face.nodes[2].matrix = glm::translate(glm::mat4(1), glm::vec3(0, 0, 5));
@@ -186,7 +187,7 @@ TEST(SkinnedFromMeshes, PutsSkinsOneAfterTheOther) {
     std::swap(face.skins[1].joints[0], face.skins[1].joints[1]);
     const auto world = world_of(face, {});
     std::vector<glm::mat4> joints(4);
-    skinned_from_meshes(face, world, joints);
+    skinned_from_meshes(face, rest_placement(face), glm::dvec3(0), joints);
     EXPECT_EQ(joints[0], world[1] * face.skins[0].joint_from_mesh[0]);
     EXPECT_EQ(joints[1], world[2] * face.skins[0].joint_from_mesh[1]);
     EXPECT_EQ(joints[2], world[2] * face.skins[1].joint_from_mesh[0]);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "rig/blood/hemoglobin_pattern.h"
@@ -150,7 +151,7 @@ HemoglobinPattern cheeks() {
 TEST(HemoglobinPattern, ThereIsOneForEveryMapOfTheRig) {
     const Rig rig(small_face());
     const auto maps = rig.hemoglobin_maps();
-    EXPECT_EQ(hemoglobin_pattern_names, std::vector<std::string>(maps.begin(), maps.end()));
+    EXPECT_TRUE(std::ranges::equal(hemoglobin_pattern_names, maps));
 }
 
 TEST(HemoglobinPattern, IsFullAtItsCentreOnBothSides) {

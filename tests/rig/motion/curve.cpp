@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/rotation.h"
+
 namespace blush {
 namespace {
 
@@ -98,6 +100,8 @@ TEST(Curve, HugeFiniteKeysStayFinite) {
     EXPECT_EQ(value_at(line, 0), 0);
 }
 
+glm::quat rotation_at(const Track& track, float time_seconds) { return glm_of(sample_rotation(track, time_seconds)); }
+
 Track rotations(Interpolation interpolation, const glm::quat& a, const glm::quat& b) {
     return {.interpolation = interpolation,
             .width = 4,
@@ -116,7 +120,7 @@ void expect_same_rotation(const glm::quat& a, const glm::quat& b, double toleran
 TEST(Rotation, SlerpTurnsAtConstantSpeed) {
     const Track track = rotations(Interpolation::linear, about_y(0), about_y(2.0));
     for (int i = 0; i <= 8; ++i) {
-        const glm::quat found = sample_rotation(track, static_cast<float>(i) / 8);
+        const glm::quat found = rotation_at(track, static_cast<float>(i) / 8);
         const glm::quat wanted = about_y(2.0 * i / 8);
         EXPECT_NEAR(found.y, wanted.y, 1e-6);
         EXPECT_NEAR(found.w, wanted.w, 1e-6);
@@ -126,13 +130,13 @@ TEST(Rotation, SlerpTurnsAtConstantSpeed) {
 TEST(Rotation, TakesTheShorterArc) {
     const glm::quat end = about_y(1.0);
     const Track track = rotations(Interpolation::linear, about_y(0), -end);
-    expect_same_rotation(sample_rotation(track, 0.5F), about_y(0.5), 1e-6);
+    expect_same_rotation(rotation_at(track, 0.5F), about_y(0.5), 1e-6);
 }
 
 TEST(Rotation, NearlyEqualKeysDoNotLoseTheirDifference) {
     for (const double angle : {1e-3, 2.1e-4, 1.9e-4, 1e-6}) {
         const Track track = rotations(Interpolation::linear, about_y(0), about_y(angle));
-        const glm::quat half = sample_rotation(track, 0.5F);
+        const glm::quat half = rotation_at(track, 0.5F);
         EXPECT_NEAR(half.y, angle / 4, angle * 1e-5) << angle;
         EXPECT_NEAR(glm::length(half), 1, 1e-6);
     }
@@ -142,14 +146,14 @@ TEST(Rotation, EqualAndNegatedKeysStayPut) {
     const glm::quat q = about_y(0.7);
     for (const glm::quat& end : {q, -q}) {
         const Track track = rotations(Interpolation::linear, q, end);
-        for (const float time : {0.0F, 0.3F, 1.0F}) expect_same_rotation(sample_rotation(track, time), q, 1e-6);
+        for (const float time : {0.0F, 0.3F, 1.0F}) expect_same_rotation(rotation_at(track, time), q, 1e-6);
     }
 }
 
 TEST(Rotation, HalfTurnApartIsUnitAndOnAnArcBetween) {
     // The two keys are a half turn apart (dot product 0): both arcs are equally long, the result must still be one.
     const Track track = rotations(Interpolation::linear, glm::quat(1, 0, 0, 0), glm::quat(0, 0, 1, 0));
-    const glm::quat half = sample_rotation(track, 0.5F);
+    const glm::quat half = rotation_at(track, 0.5F);
     EXPECT_NEAR(glm::length(half), 1, 1e-6);
     EXPECT_NEAR(std::abs(half.y), std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(std::abs(half.w), std::sqrt(0.5), 1e-6);
@@ -158,24 +162,24 @@ TEST(Rotation, HalfTurnApartIsUnitAndOnAnArcBetween) {
 TEST(Rotation, StepCubicAndNanTime) {
     const glm::quat a = about_y(0.2), b = about_y(1.2);
     const Track step = rotations(Interpolation::step, a, b);
-    expect_same_rotation(sample_rotation(step, 0.99F), a, 1e-6);
-    expect_same_rotation(sample_rotation(step, 1), b, 1e-6);
-    expect_same_rotation(sample_rotation(step, nan_time), a, 1e-6);
+    expect_same_rotation(rotation_at(step, 0.99F), a, 1e-6);
+    expect_same_rotation(rotation_at(step, 1), b, 1e-6);
+    expect_same_rotation(rotation_at(step, nan_time), a, 1e-6);
 
     Track cubic = step;
     cubic.interpolation = Interpolation::cubic_spline;
     cubic.values = {0, 0, 0, 0, a.x, a.y, a.z, a.w, 0, 0, 0, 0, 0, 0, 0, 0, b.x, b.y, b.z, b.w, 0, 0, 0, 0};
     // With level tangents the middle is the normalised mean of both keys: half way between the angles.
-    expect_same_rotation(sample_rotation(cubic, 0.5F), about_y(0.7), 1e-6);
-    EXPECT_NEAR(glm::length(sample_rotation(cubic, 0.25F)), 1, 1e-6);
+    expect_same_rotation(rotation_at(cubic, 0.5F), about_y(0.7), 1e-6);
+    EXPECT_NEAR(glm::length(rotation_at(cubic, 0.25F)), 1, 1e-6);
 }
 
 TEST(Rotation, KeysOfNoLengthAndSplinesThroughZeroAreNoRotation) {
     const glm::quat none(0, 0, 0, 0), q = about_y(1);
-    EXPECT_EQ(sample_rotation(rotations(Interpolation::step, none, none), 0), glm::quat(1, 0, 0, 0));
+    EXPECT_EQ(rotation_at(rotations(Interpolation::step, none, none), 0), glm::quat(1, 0, 0, 0));
     Track cubic{.interpolation = Interpolation::cubic_spline, .width = 4, .times_seconds = {0, 1}, .values = {}};
     cubic.values = {0, 0, 0, 0, q.x, q.y, q.z, q.w, 0, 0, 0, 0, 0, 0, 0, 0, -q.x, -q.y, -q.z, -q.w, 0, 0, 0, 0};
-    EXPECT_EQ(sample_rotation(cubic, 0.5F), glm::quat(1, 0, 0, 0));
+    EXPECT_EQ(rotation_at(cubic, 0.5F), glm::quat(1, 0, 0, 0));
 }
 
 /// Random tracks; the seed is fixed, so that a failure can be seen again.

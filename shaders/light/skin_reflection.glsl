@@ -24,26 +24,23 @@ float skin_specular(vec3 n, vec3 h, vec3 view, float roughness) {
     float stored = 2.0 * texture(beckmann_map, vec2(column, roughness)).r;
     float distribution = pow(stored, 10.0);
     float fresnel = skin_f0 + (1.0 - skin_f0) * pow(1.0 - clamp(dot(view, unit_h), 0.0, 1.0), 5.0);
-    return distribution * fresnel / (3.14159265358979 * h2);
+    return distribution * fresnel / (pi * h2);
 }
 
-#ifdef TRANSLUCENCY
-// Light through thin parts (jimenez-2012, chapter 5): share of the light's radiance that comes out here.
-vec3 transmitted(Light light, InMap map, vec3 l, vec3 vertex_normal) {
-    // The reversed vertex normal, some 17 degrees early so that it meets what the front reflects (eq. 5.13).
-    float back = max(0.3 - dot(vertex_normal, l), 0.0);
-    if (back == 0.0 || light.shadow.x < 0.0) return vec3(0.0);
-    float thickness_mm =
-        depth_inside(light, map.here - map.along_normal * (translucency.y / skin.x), translucency.z / skin.x) * skin.x;
-    // The paper leaves the thickness short by what the point was drawn in; a slab has it all, up to 45 degrees from its
-    // normal. Where light grazes more, a surface is no slab's, and its own depth is the better guess.
-    float facing_away = max(-dot(vertex_normal, l), 0.0), bounded = max(facing_away, 0.7);
-    thickness_mm += translucency.y * facing_away / (bounded * bounded);
-    if (!(thickness_mm < translucency.z)) return vec3(0.0);
-    vec3 passed = vec3(0.0);  // T(s), eq. 5.12
-    for (int k = 0; k < BLUSH_MOST_GAUSSIANS; ++k) {
-        passed += profile[k].rgb * exp(thickness_mm * thickness_mm * profile[k].w);
-    }
-    return translucency.x * back * passed;
+float skin_roughness(Surface s) { return clamp(skin.z * (s.roughness / 0.5), 0.08, 0.95); }
+
+void reflection_split(Surface s, vec3 view, vec3 l, inout Split split) {
+    float roughness = skin_roughness(s), intensity = skin.w * s.specular;
+    split.entering = vec3(1.0 - intensity * specular_albedo(dot(s.normal, l), roughness).x);
+    split.reflected = vec3(pi * intensity * skin_specular(s.normal, l + view, view, roughness));
 }
-#endif
+
+// Uniform light from everywhere is reflected by the directional albedo of the view: reciprocity. Light that comes from
+// below and is sent back at the surface leaves elsewhere: the division by what the surface lets out on the average keeps a
+// white furnace white (Kelemen and Szirmay-Kalos 2001, 3). chappuis-2011, 2.6, leaves it out and loses some 4 %.
+void reflection_around(Surface s, vec3 view, Ambient around, inout Lighting lit) {
+    vec2 mirror = skin.w * s.specular * specular_albedo(cosine_to_view(s, view), skin_roughness(s));
+    lit.entering = around.white * s.occlusion * (1.0 - mirror.y);
+    lit.reflected = around.mirrored * s.occlusion * mirror.x;
+    lit.leaving = vec3((1.0 - mirror.x) / (1.0 - mirror.y));
+}

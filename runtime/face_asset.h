@@ -1,0 +1,51 @@
+#pragma once
+/// FaceAsset: a face with its rig and its maps, loaded once, for any number of characters on any number of devices.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "rig/controls/rig.h"
+#include "rig/controls/rig_description.h"
+#include "rig/face.h"
+#include "rig/light/occlusion.h"
+#include "rig/result.h"
+#include "runtime/camera.h"
+#include "runtime/files/face_appearance.h"
+
+namespace blush {
+
+struct AssetState;
+
+/// A handle to data that never changes: copies share it, and any thread may read it. Needs no GL.
+class FaceAsset {
+public:
+    /// Loads a face file (runtime/files/face_file.h) with what stands beside it: rig description, maps of wrinkles and
+    /// blood, occlusion. Error: a sentence with file, place and reason.
+    static Result<FaceAsset> load(const std::filesystem::path& path);
+    /// The same from memory. `face` must satisfy validate() and `description` check(); without one, that of its target
+    /// names. `occlusion` has one transfer a vertex of this face in each pose.
+    static Result<FaceAsset> create(Face face, const std::optional<RigDescription>& description = std::nullopt,
+                                    FaceAppearance appearance = {},
+                                    std::optional<OcclusionSet> occlusion = std::nullopt);
+
+    /// The same face with other maps.
+    FaceAsset with_appearance(FaceAppearance appearance) const;
+    FaceAsset with_occlusion(std::optional<OcclusionSet> occlusion) const;
+
+    const Face& face() const;
+    const Rig& rig() const;
+    const FaceAppearance& appearance() const;
+
+    /// A camera that frames the head at rest, and of a bust what lies close to it, where the face stands in its file.
+    /// aspect: width / height.
+    OrbitCamera framing(float aspect) const;
+
+    const AssetState& state() const { return *state_; }
+
+private:
+    explicit FaceAsset(std::shared_ptr<const AssetState> state);
+    std::shared_ptr<const AssetState> state_;
+};
+
+}  // namespace blush

@@ -1,0 +1,80 @@
+#pragma once
+/// Scene: characters in one light, drawn into any number of views.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rig/result.h"
+#include "rig/vectors.h"
+#include "runtime/character.h"
+#include "runtime/device.h"
+#include "runtime/frame_report.h"
+#include "runtime/lighting.h"
+#include "runtime/view.h"
+
+namespace blush {
+
+struct SceneState;
+
+/// One view of a frame and what it is drawn for.
+struct ViewInFrame {
+    View& view;
+    const ViewFrame& frame;
+};
+
+/// A depth-only pass of the host's, such as its own shadow map.
+struct DepthFrame {
+    DMat4 clip_from_world{1};
+    DepthConvention depth_convention;     ///< of clip_from_world and of the framebuffer's depth
+    std::uint32_t x = 0, y = 0;           ///< pixels
+    std::uint32_t width = 0, height = 0;  ///< pixels
+    std::uint32_t framebuffer = 0;        ///< GL name; its depth is tested and written, nothing else
+};
+
+class Scene {
+public:
+    static Result<Scene> create(const Device& device);
+
+    /// Adds a character of the same device; a second time has no effect. It leaves when it is destroyed. Status: it is
+    /// of another device.
+    Status add(const Character& character);
+    void remove(const Character& character);
+
+    /// What lights it; nothing: three lights of a portrait that follow the camera of each view.
+    void set_lighting(std::optional<Lighting> lighting);
+    /// Status: no such effect, setting or choice, or one that another owner has (runtime/settings.h).
+    Status set(std::string_view setting, std::string_view choice);
+
+    /// Draws one frame of all characters into a view, and restores every GL state that it touched. The report stands
+    /// until the view is next drawn. A view without pixels draws nothing. Each call is a frame: what moved since the
+    /// last call is what velocities tell.
+    const FrameReport& draw(View& view, const ViewFrame& frame);
+    /// Several views of one frame: surfaces are deformed and shadow maps drawn once for all of them.
+    void draw(std::span<const ViewInFrame> views);
+    /// The report of a view's last frame.
+    static const FrameReport& report(const View& view);
+
+    /// Draws the depth of all that casts shadows, as the controls stand now, for a pass of the host's own. Restores
+    /// every GL state that it touched.
+    void draw_depth(const DepthFrame& frame);
+
+    /// Deforms (on the GPU, without drawing) and reads back: positions, normals and tangents of every vertex, in the
+    /// mesh's space.
+    struct Surface {
+        std::vector<Vec3> positions, normals;
+        std::vector<Vec4> tangents;
+    };
+    Surface read_deformed(const Character& character);
+
+    SceneState& state() { return *state_; }
+
+private:
+    explicit Scene(std::shared_ptr<SceneState> state);
+    std::shared_ptr<SceneState> state_;
+};
+
+}  // namespace blush

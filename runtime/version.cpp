@@ -1,0 +1,7 @@
+#include "runtime/version.h"
+
+namespace blush {
+
+Version version() { return {}; }
+
+}  // namespace blush

@@ -1,0 +1,21 @@
+// What the diffusion on the screen reads: light that enters the skin, the albedo that it meets when it leaves, and depth,
+// each times the matte (how much of the pixel is skin). What is not skin writes 0, and by blending takes its own share from
+// the skin behind.
+
+layout(location = 1) out vec4 skin_light;
+layout(location = 2) out vec4 skin_albedo;
+layout(location = 3) out vec4 skin_depth_mm;
+
+void write_skin(Surface s, Lighting lit) {
+    // chappuis-2011, 2.2.4: a part of the albedo before the diffusion, the rest after it.
+    vec3 albedo = max(diffuse_color(s), vec3(1e-6));
+    vec3 before = pow(albedo, vec3(skin.y));
+    skin_light = vec4(min(lit.entering * before, vec3(largest_radiance)), 1.0);
+    skin_albedo = vec4(albedo / before * lit.leaving, s.scatter);
+    skin_depth_mm = vec4(dot(depth_from_world, vec4(s.position, 1.0)) * skin.x, float(counts.y), 0.0, 1.0);
+}
+
+void write_no_skin(float opacity) {
+    skin_light = skin_albedo = skin_depth_mm = vec4(0.0, 0.0, 0.0, opacity);
+    if (alpha.y == 1.0) skin_light = skin_albedo = skin_depth_mm = vec4(0.0);
+}
