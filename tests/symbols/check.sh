@@ -18,8 +18,9 @@ shift 2
     defined++
   }
   class == "u" { fault("unique, so that dlclose leaves a plug-in where it is: " name) }
-  # length() is the one function that is not forced inline, and the same for every host.
-  name ~ /^([a-z0-9_:<>, ]* )?glm::/ && name !~ /::length\(\)/ && section ~ /^\.text/ && name !~ /blush::/ {
+  # length() is the one function that is not forced inline, and the same for every host; what returns a GLM type may be
+  # a function of the C++ library, whose body no macro changes.
+  name ~ /^([a-z0-9_:<>, ]* )?glm::/ && name !~ /::length\(\)/ && name !~ /^glm::.*>& std::/ && section ~ /^\.text/ && name !~ /blush::/ {
     fault("a host with other GLM_FORCE_ macros could take its place: " name)
   }
   section ~ /^\.(bss|data|tbss|tdata)/ && section !~ /^\.data\.rel\.(ro|local\.DW)/ {

@@ -31,8 +31,9 @@ static std::vector<std::size_t> layout() {
             SIZE(Material), PLACE(Material, emissive_linear), PLACE(Material, specular_map), SIZE(Target), SIZE(Face),
             PLACE(Face, notes), SIZE(Pose), PLACE(Pose, scratch), SIZE(Bounds), PLACE(Bounds, high), SIZE(Pivot),
             SIZE(HeadAndEyes), SIZE(GaussianTerm), SIZE(SkinImage), SIZE(Stretch), SIZE(PrincipalCompression),
-            SIZE(Camera), PLACE(Camera, clip_from_view), SIZE(View), PLACE(View, background_linear), SIZE(LightSource),
-            PLACE(LightSource, radiance_linear), SIZE(Lighting), PLACE(Lighting, environment_turn_radians)};
+            SIZE(Camera), PLACE(Camera, clip_from_view), SIZE(ViewFrame), PLACE(ViewFrame, background_linear),
+            SIZE(LightSource), PLACE(LightSource, radiance_linear), SIZE(Lighting),
+            PLACE(Lighting, environment_turn_radians)};
 }
 
 std::vector<std::size_t> layout_of_library();
