@@ -5,8 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 
 #include "runtime/antialias/antialias_passes.h"
@@ -149,17 +147,20 @@ PassTarget target_of(FrameState& frame, const FrameGraph& graph, ResourceId imag
     return {texture ? frame.common->output.name() : resource.handle, resource.shape.width, resource.shape.height};
 }
 
-const AntialiasPasses& passes_of(FrameState& frame) {
+/// Makes the passes where they are not there yet. False: they cannot be, which the frame reports.
+bool require_passes(FrameState& frame) {
     std::optional<AntialiasPasses>& passes = frame.own<Antialiasing>().passes;
-    if (passes) return *passes;
+    if (passes) return true;
     Result<AntialiasPasses> made = AntialiasPasses::create();
-    if (!made) {  // as gl::require_program()
-        std::fprintf(stderr, "blush: %s\n", made.error().message.c_str());
-        std::abort();
+    if (made) {
+        passes = *std::move(made);
+    } else {
+        frame.shared.programs.fail(made.error());
     }
-    passes = *std::move(made);
-    return *passes;
+    return passes.has_value();
 }
+
+const AntialiasPasses& passes_of(FrameState& frame) { return *frame.own<Antialiasing>().passes; }
 
 ResourceId declare_edges(FrameState& frame, ResourceId guide) {
     TextureShape shape{PixelFormat::rg8, frame.view->width, frame.view->height, 1};
@@ -216,6 +217,7 @@ void declare_speeds(FrameState& frame, ResourceId weights) {
 }
 
 void declare(FrameState& frame) {
+    if (!require_passes(frame)) return;
     Antialiasing& own = frame.own<Antialiasing>();
     find_settings(frame, own);
     const DisplayImages images = next_display(frame);
