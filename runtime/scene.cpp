@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "runtime/antialias/last_frame.h"
 #include "runtime/draw/draw_casters.h"
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/warm_up.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/light/shadow_maps.h"
 
@@ -71,9 +73,9 @@ void Scene::draw(std::span<const ViewInFrame> views) {
         return;
     }
     state_->device.make_current();
-    const gl::StateGuard guard;
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
     begin_scene_frame(*state_);
-    bool temporal = false;
+    bool compared = false;
     for (const ViewInFrame& each : views) {
         FrameState& view = each.view.state();
         if (!has_pixels(each.frame)) {
@@ -81,9 +83,18 @@ void Scene::draw(std::span<const ViewInFrame> views) {
             continue;
         }
         draw_view(view, *state_, each.frame);
-        temporal |= view.sampling.temporal;
+        compared |= compares_frames(view, each.frame);
     }
-    end_scene_frame(*state_, temporal);
+    end_scene_frame(*state_, compared);
+}
+
+WarmUpProgress Scene::warm_up(View& view, const ViewFrame& like, std::uint32_t most_programs) {
+    state_->device.make_current();
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
+    // What draw_depth() needs, whether or not a light of the scene casts shadows.
+    require_hair_cores(own_view(*state_), SeenFrom::light);
+    gl::require_program(state_->own<ShadowMaps>().program, {"light/shadow.vert"});
+    return blush::warm_up(view.state(), *state_, like, std::max(1U, most_programs));
 }
 
 const FrameReport& Scene::report(const View& view) { return view.state().report; }
@@ -91,7 +102,7 @@ const FrameReport& Scene::report(const View& view) { return view.state().report;
 void Scene::draw_depth(const DepthFrame& depth) {
     if (depth.width == 0 || depth.height == 0) return;
     state_->device.make_current();
-    const gl::StateGuard guard;
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
     FrameState& frame = own_view(*state_);
     deform_only(frame, *state_);
     auto& maps = state_->own<ShadowMaps>();
@@ -114,7 +125,7 @@ void Scene::draw_depth(const DepthFrame& depth) {
 
 Scene::Surface Scene::read_deformed(const Character& character) {
     state_->device.make_current();
-    const gl::StateGuard guard;
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
     deform_only(own_view(*state_), *state_);
     const CharacterState& state = character.state();
     const std::size_t count = state.face.positions.size();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,14 @@ struct DepthFrame {
     std::uint32_t framebuffer = 0;        ///< GL name; its depth is tested and written, nothing else
 };
 
+/// How far warm_up() has come.
+struct WarmUpProgress {
+    bool done = false;
+    float share = 0;                      ///< of the situations that it goes through
+    std::uint32_t programs_compiled = 0;  ///< since it began
+    std::optional<std::string> failure;   ///< as FrameReport::failure; it ends with one
+};
+
 class Scene {
 public:
     static Result<Scene> create(const Device& device);
@@ -55,6 +64,13 @@ public:
     const FrameReport& draw(View& view, const ViewFrame& frame);
     /// Several views of one frame: surfaces are deformed and shadow maps drawn once for all of them.
     void draw(std::span<const ViewInFrame> views);
+    /// Compiles ahead what frames of this scene can come to need, so that none of them does: for its characters, its
+    /// lighting and the settings as they are, any pose, distance and camera. `like`: output, backdrop and the other
+    /// ways of the frames to come; its camera and framebuffer do not matter. One call compiles `most_programs` at most;
+    /// call it until it is done, between frames or before the first. Controls and poses stay; the next frame of a
+    /// temporal mode stands alone. Restores every GL state that it touches.
+    WarmUpProgress warm_up(View& view, const ViewFrame& like, std::uint32_t most_programs = 1);
+
     /// The report of a view's last frame.
     static const FrameReport& report(const View& view);
 

@@ -25,7 +25,7 @@ bool is_hair_card(const CharacterState& character, const Primitive& primitive) {
 }
 
 void require_hair_cores(FrameState& frame, SeenFrom from) {
-    constexpr std::array<std::string_view, 1> with_texture = {"BASE_COLOR_MAP"};
+    constexpr std::array<std::string_view, 1> with_texture = {"BASE_COLOR_MAP 0"};
     for (const bool textured : {false, true}) {
         const std::span<const std::string_view> defines(with_texture.data(), textured ? 1 : 0);
         gl::require_program(
@@ -38,7 +38,7 @@ void bind_hair_core(FrameState& frame, CharacterState& character, const Primitiv
     const Material& material = character.face.materials[static_cast<std::size_t>(primitive.material)];
     const bool textured = material.base_color_srgb.image >= 0;
     use_program(frame, frame.shared_own<HairCorePrograms>().made[index_of(textured, from)]);
-    character.model->bind_maps(character.face, primitive.material);
+    character.model->bind_maps(primitive.material, textured ? base_color_texture : 0);
 }
 
 }  // namespace blush

@@ -10,6 +10,7 @@
 #include "runtime/antialias/antialias_passes.h"
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
 #include "runtime/measure/antialiasing_study.h"
@@ -232,7 +233,7 @@ void declare(FrameState& frame) {
         blend_pass(frame, graph, frame.own<Antialiasing>().colors, meaning_of(frame.view->output));
     };
     frame.graph.pass("blend neighbours", blend).reads(images.from).reads(weights).writes(images.to);
-    if (frame.on(velocities_effect)) declare_speeds(frame, weights);
+    if (frame.sampling.temporal && frame.on(velocities_effect)) declare_speeds(frame, weights);
 }
 
 constexpr StudiedMode preset(std::string_view label, std::string_view choice) {

@@ -9,6 +9,7 @@
 #include "rig/blood/hemoglobin.h"
 #include "rig/blood/skin_colour_table.h"
 #include "runtime/effects/baker.h"
+#include "runtime/effects/effects.h"
 #include "runtime/files/appearance_file.h"
 
 namespace blush {

@@ -4,9 +4,15 @@
 #include <array>
 
 #include "runtime/appearance/appearance_gpu.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
+#include "runtime/gl/shared_blocks.h"
 #include "runtime/measure/appearance_frames.h"
 #include "runtime/measure/appearance_probe.h"
+
+namespace blush::shared {
+#include "shaders/blood/blood_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -42,6 +48,11 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
     return {.on = true, .reason = "some expression or state moves blood"};
 }
 
+/// What "blend blood" writes, in the frame being drawn.
+struct Change {
+    ResourceId id{};
+};
+
 bool blends(const FrameState& frame, CharacterState& character) {
     return character.on(blood_effect) &&
            (frame.facts.forced || blended_blood(character).shares != character.pose.hemoglobin);
@@ -52,7 +63,7 @@ void declare(FrameState& frame) {
     for (CharacterState* character : frame.characters) {
         if (!character->on(blood_effect)) continue;
         const BloodTextures& textures = blood_textures(*character);
-        character->resources.blood_change =
+        character->own<Change>().id =
             frame.graph.import_texture("blood", blended_blood(*character).texture.name(), textures.blended_shape);
         any |= blends(frame, *character);
     }
@@ -64,7 +75,7 @@ void declare(FrameState& frame) {
     };
     frame.graph.pass("blend blood", blend_all);
     for (CharacterState* character : frame.characters) {
-        if (blends(frame, *character)) frame.graph.writes(character->resources.blood_change);
+        if (blends(frame, *character)) frame.graph.writes(character->own<Change>().id);
     }
 }
 
@@ -98,6 +109,48 @@ constexpr std::array<HardCase, 1> hard_cases = {{
     {"face without maps of its pigments", "is drawn as it is", [](Face& /*face*/) {}},
 }};
 
+std::uint32_t variant(const FrameState& /*frame*/, const CharacterState& character) {
+    return colour_from_pigments(character) ? 1 : 0;
+}
+
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    auto& out = *static_cast<shared::BloodUniforms*>(to);
+    out.factor = character.pose.hemoglobin_factor;
+    out.largest = static_cast<float>(largest_hemoglobin);
+    out.table_nodes = static_cast<float>(blood_textures(character).table_nodes);
+}
+
+void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t unit) {
+    const BloodTextures& textures = blood_textures(character);
+    glBindTextureUnit(unit, textures.pigments.name());
+    glBindTextureUnit(unit + 1, blended_blood(character).texture.name());
+    glBindTextureUnit(unit + 2, textures.table.name());
+    if (colour_from_pigments(character)) glBindTextureUnit(unit + 3, textures.residual.name());
+}
+
+void reads(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        if (character->on(blood_effect)) frame.graph.reads(character->own<Change>().id);
+    }
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"colour"};
+constexpr std::array<ShadingVariant, 1> variants = {{{"PIGMENT_COLOR", 1}}};
+constexpr std::array<UniformField, 3> fields = {{{"factor", offsetof(shared::BloodUniforms, factor)},
+                                                 {"largest", offsetof(shared::BloodUniforms, largest)},
+                                                 {"table_nodes", offsetof(shared::BloodUniforms, table_nodes)}}};
+constexpr ShadingPart shading = {
+    .file = "blood/blood.glsl",
+    .hooks = hooks,
+    .materials = materials_of(MaterialKind::skin),
+    .variants = variants,
+    .variant = variant,
+    .uniforms = {"blood/blood_uniforms.glsl", "BloodUniforms", sizeof(shared::BloodUniforms), fields, write},
+    .textures = 3,
+    .bind = bind,
+    .reads = reads,
+};
+
 }  // namespace
 
 const Effect blood_effect = {
@@ -107,6 +160,7 @@ const Effect blood_effect = {
     .stage = Stage::light,
     .character_need = need,
     .declare = declare,
+    .shading = &shading,
     .studies = studies,
     .hard_cases = hard_cases,
 };

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/measure/camera_studies.h"
 

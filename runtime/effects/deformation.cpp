@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "rig/deform/deform.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/measure/errors.h"
 #include "runtime/measure/study_scene.h"

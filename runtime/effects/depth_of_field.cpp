@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rig/head/material_kind.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/measure/camera_studies.h"

@@ -5,9 +5,15 @@
 #include <numbers>
 
 #include "rig/light/skin_reflectance.h"
-#include "runtime/frame/effect.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/gl/shared_blocks.h"
+#include "runtime/light/environment_map.h"
 #include "runtime/measure/sphere_study.h"
+
+namespace blush::shared {
+#include "shaders/light/environment_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -110,6 +116,29 @@ constexpr std::array<HardCase, 3> hard_cases = {{
      [](ViewFrame& view) { view.lighting = &lighting_of(1); }},
 }};
 
+void write(const FrameState& frame, CharacterState& /*character*/, void* to) {
+    const EnvironmentView view = environment_view(*frame.lighting);
+    auto& out = *static_cast<shared::EnvironmentUniforms*>(to);
+    out.factor = view.factor;
+    out.last_level = static_cast<float>(frame.lighting->environment->levels.size()) - 1;
+    out.turn = view.turn_radians;
+}
+
+void bind(FrameState& frame, CharacterState& /*character*/, std::uint32_t unit) { bind_environment(frame, unit); }
+
+constexpr std::array<std::string_view, 1> hooks = {"ambient"};
+constexpr std::array<UniformField, 3> fields = {{{"factor", offsetof(shared::EnvironmentUniforms, factor)},
+                                                 {"last_level", offsetof(shared::EnvironmentUniforms, last_level)},
+                                                 {"turn", offsetof(shared::EnvironmentUniforms, turn)}}};
+constexpr ShadingPart shading = {
+    .file = "light/environment.glsl",
+    .hooks = hooks,
+    .uniforms = {"light/environment_uniforms.glsl", "EnvironmentUniforms", sizeof(shared::EnvironmentUniforms), fields,
+                 write},
+    .textures = 1,
+    .bind = bind,
+};
+
 }  // namespace
 
 const Effect environment_effect = {
@@ -118,6 +147,7 @@ const Effect environment_effect = {
     .settings = {},
     .stage = Stage::light,
     .need = need,
+    .shading = &shading,
     .studies = studies,
     .hard_cases = hard_cases,
 };

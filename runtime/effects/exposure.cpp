@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/measure/camera_studies.h"
@@ -53,6 +54,8 @@ double number(const FrameState& frame, std::string_view setting) {
     return frame.settings.number(exposure_effect.name, setting);
 }
 
+void find_facts(FrameState& frame) { frame.exposure_stops = number(frame, "stops"); }
+
 Need need(const FrameState& frame) {
     const auto off = [](std::string_view reason) {
         return Need{.on = false, .reason = reason, .can_be_forced = false};
@@ -74,7 +77,7 @@ void meter(FrameState& frame, const FrameGraph& graph, ResourceId from) {
 
 void adapt(FrameState& frame, const FrameGraph& graph) {
     Exposure& own = frame.own<Exposure>();
-    bind_output(frame, graph, frame.resources.log2_exposure);
+    bind_output(frame, graph, *frame.resources.log2_exposure);
     glUseProgram(own.adapt_program.name());
     glBindTextureUnit(0, graph[own.cells].handle);
     glBindTextureUnit(1, own.log2_exposure[1 - own.now].name());
@@ -114,7 +117,7 @@ void declare(FrameState& frame) {
     frame.graph.pass("meter", metered).reads(frame.resources.scene_color).writes(own.cells);
     frame.graph.pass("adapt exposure", [&frame](const FrameGraph& graph) { adapt(frame, graph); })
         .reads(own.cells)
-        .writes(frame.resources.log2_exposure);
+        .writes(*frame.resources.log2_exposure);
 }
 
 constexpr std::array<HardCase, 3> hard_cases = {{
@@ -137,6 +140,7 @@ const Effect exposure_effect = {
     .settings = settings,
     .owner = SettingOwner::view,
     .stage = Stage::scene,
+    .find_facts = find_facts,
     .need = need,
     .declare = declare,
     .studies = exposure_studies,

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/measure/camera_studies.h"
 

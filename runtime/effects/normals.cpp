@@ -1,7 +1,9 @@
 /// Normals after the deformation: the targets' own NORMAL deltas, or turned with the deformed surface.
 
+#include <algorithm>
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/measure/errors.h"
 #include "runtime/measure/study_scene.h"
@@ -17,6 +19,18 @@ constexpr std::array<Setting, 1> settings = {{
      "turned with the deformed surface everywhere",
      source_choices, static_cast<std::uint8_t>(NormalMethod::authored)},
 }};
+
+void find_facts(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        const AssetState& asset = character->facts_of_face;
+        character->normal_method = static_cast<NormalMethod>(character->settings.choice("normals", "source"));
+        const auto& needs = character->normal_method == NormalMethod::authored ? asset.target_needs_turned_normals
+                                                                               : asset.target_moves_normals;
+        character->facts.any_turned_normals = std::ranges::any_of(needs, [](std::uint8_t turns) { return turns != 0; });
+        character->facts.active_need_turned_normals = std::ranges::any_of(
+            character->active(), [&](const ActiveTarget& entry) { return needs[entry.target] != 0; });
+    }
+}
 
 Need need(const FrameState& /*frame*/, const CharacterState& character) {
     if (!character.facts.any_turned_normals) {
@@ -132,6 +146,7 @@ const Effect normals_effect = {
     .name = "normals",
     .what = "normals follow the deformed surface",
     .settings = settings,
+    .find_facts = find_facts,
     .character_need = need,
     .declare = declare,
     .studies = studies,

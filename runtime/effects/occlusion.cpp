@@ -3,9 +3,15 @@
 
 #include <array>
 
-#include "runtime/frame/effect.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/gl/shared_blocks.h"
+#include "runtime/light/occlusion_gpu.h"
 #include "runtime/measure/frame_study.h"
+
+namespace blush::shared {
+#include "shaders/light/occlusion_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -38,6 +44,36 @@ constexpr std::array<HardCase, 1> hard_cases = {{
     {"a face without coefficients", "lit as if it hid nothing", [](Face&) {}},
 }};
 
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    auto& out = *static_cast<shared::OcclusionUniforms*>(to);
+    const OcclusionSet& set = *character.facts_of_face.occlusion;
+    static_assert(most_occlusion_poses <= 4 * std::extent_v<decltype(out.weights)>);
+    std::array<float, most_occlusion_poses> weights{};
+    occlusion_weights(set, character.face, character.pose.weights, std::span(weights).first(set.poses.size()));
+    for (std::size_t p = 0; p < set.poses.size(); ++p) {
+        out.weights[p / 4][static_cast<glm::length_t>(p % 4)] = weights[p];
+    }
+    out.poses = static_cast<int>(set.poses.size());
+    out.vertices = static_cast<int>(character.face.positions.size());
+    out.bounces = character.settings.choice("occlusion", "bounces") == 0 ? 1 : 0;
+}
+
+void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t /*unit*/) { bind_occlusion(character); }
+
+constexpr std::array<std::string_view, 2> hooks = {"visibility", "ambient"};
+constexpr std::array<UniformField, 4> fields = {{{"poses", offsetof(shared::OcclusionUniforms, poses)},
+                                                 {"vertices", offsetof(shared::OcclusionUniforms, vertices)},
+                                                 {"bounces", offsetof(shared::OcclusionUniforms, bounces)},
+                                                 {"weights[0]", offsetof(shared::OcclusionUniforms, weights)}}};
+constexpr ShadingPart shading = {
+    .file = "light/occluded_ambient.glsl",
+    .vertex_file = "light/occlusion.glsl",
+    .hooks = hooks,
+    .uniforms = {"light/occlusion_uniforms.glsl", "OcclusionUniforms", sizeof(shared::OcclusionUniforms), fields,
+                 write},
+    .bind = bind,
+};
+
 }  // namespace
 
 const Effect occlusion_effect = {
@@ -46,6 +82,7 @@ const Effect occlusion_effect = {
     .settings = settings,
     .stage = Stage::light,
     .character_need = need,
+    .shading = &shading,
     .studies = studies,
     .hard_cases = hard_cases,
 };

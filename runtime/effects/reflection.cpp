@@ -2,8 +2,10 @@
 
 #include <array>
 
-#include "runtime/frame/effect.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/gl/shared_blocks.h"
+#include "runtime/light/skin_tables.h"
 #include "runtime/measure/frame_study.h"
 #include "runtime/measure/sphere_study.h"
 
@@ -11,6 +13,10 @@
 #include <numbers>
 
 #include "rig/light/skin_reflectance.h"
+
+namespace blush::shared {
+#include "shaders/light/reflection_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -93,6 +99,31 @@ constexpr std::array<HardCase, 1> hard_cases = {{
      }},
 }};
 
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    auto& out = *static_cast<shared::ReflectionUniforms*>(to);
+    out.roughness = static_cast<float>(character.settings.number("reflection", "roughness"));
+    out.intensity = static_cast<float>(character.settings.number("reflection", "intensity"));
+}
+
+void bind(FrameState& frame, CharacterState& /*character*/, std::uint32_t unit) {
+    const SkinTables& tables = skin_tables(frame);
+    glBindTextureUnit(unit, tables.beckmann.name());
+    glBindTextureUnit(unit + 1, tables.specular_albedo.name());
+}
+
+constexpr std::array<std::string_view, 2> hooks = {"split", "around"};
+constexpr std::array<UniformField, 2> fields = {{{"roughness", offsetof(shared::ReflectionUniforms, roughness)},
+                                                 {"intensity", offsetof(shared::ReflectionUniforms, intensity)}}};
+constexpr ShadingPart shading = {
+    .file = "light/skin_reflection.glsl",
+    .hooks = hooks,
+    .materials = materials_of(MaterialKind::skin),
+    .uniforms = {"light/reflection_uniforms.glsl", "ReflectionUniforms", sizeof(shared::ReflectionUniforms), fields,
+                 write},
+    .textures = 2,
+    .bind = bind,
+};
+
 }  // namespace
 
 const Effect reflection_effect = {
@@ -101,6 +132,7 @@ const Effect reflection_effect = {
     .settings = settings,
     .stage = Stage::light,
     .character_need = need,
+    .shading = &shading,
     .studies = studies,
     .hard_cases = hard_cases,
 };

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "runtime/antialias/last_frame.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
 #include "runtime/measure/antialiasing_study.h"

@@ -5,9 +5,15 @@
 #include <cassert>
 
 #include "rig/light/separable_kernel.h"
+#include "runtime/effects/effects.h"
 #include "runtime/effects/scattering.h"
 #include "runtime/frame/frame.h"
+#include "runtime/gl/shared_blocks.h"
 #include "runtime/light/scatter_projection.h"
+
+namespace blush::shared {
+#include "shaders/light/scattering_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -158,8 +164,10 @@ void list_characters(FrameState& frame, State& own) {
     }
 }
 
+std::uint32_t samples_of(const FrameState& frame) { return 9U + 8U * frame.settings.choice("scattering", "samples"); }
+
 const std::vector<std::vector<KernelTap>>& separable_kernels(FrameState& frame, State& own) {
-    const std::uint32_t samples = 9U + 8U * frame.settings.choice("scattering", "samples");
+    const std::uint32_t samples = samples_of(frame);
     const std::uint8_t kernel = frame.settings.choice("scattering", "kernel");
     if (own.samples == samples && own.kernel == kernel && own.kernel_profiles == own.profiles) return own.kernels;
     own.samples = samples;
@@ -187,9 +195,9 @@ const std::vector<JitteredKernel>& jittered_kernels(State& own) {
 
 ScatterInput input_of(FrameState& frame, const State& own, const FrameGraph& graph) {
     ScatterInput input;
-    input.light = graph[frame.resources.skin_light].handle;
-    input.albedo = graph[frame.resources.skin_albedo].handle;
-    input.depth = graph[frame.resources.skin_depth].handle;
+    input.light = graph[frame.target(scattering_effect, 0)].handle;
+    input.albedo = graph[frame.target(scattering_effect, 1)].handle;
+    input.depth = graph[frame.target(scattering_effect, 2)].handle;
     input.width = frame.view->width;
     input.height = frame.view->height;
     if (own.characters.empty()) return input;  // forced on
@@ -254,10 +262,13 @@ void declare(FrameState& frame) {
     stencil.format = PixelFormat::stencil8;
     const ScatterMethod method = method_of(frame);
     own.scene = frame.resources.scene_color;
+    // One character of a scene may come to be seen alone, or with others.
+    own.passes.require(method, samples_of(frame), false);
+    if (frame.characters.size() > 1) own.passes.require(method, samples_of(frame), true);
     frame.graph.pass("scatter", [&frame](const FrameGraph& graph) { scatter(frame, graph); })
-        .reads(frame.resources.skin_light)
-        .reads(frame.resources.skin_albedo)
-        .reads(frame.resources.skin_depth);
+        .reads(frame.target(scattering_effect, 0))
+        .reads(frame.target(scattering_effect, 1))
+        .reads(frame.target(scattering_effect, 2));
     if (method != ScatterMethod::jittered) {
         own.first_image = frame.graph.texture("scattered light", half);
         frame.graph.writes(own.first_image);
@@ -299,6 +310,33 @@ constexpr std::array<HardCase, 6> hard_cases = {{
      [](ViewFrame& view) { view.width = view.height = 1; }},
 }};
 
+void find_facts(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        const double set = number(*character, "millimetres_a_unit");
+        if (set > 0) character->millimetres_a_unit = set / character->scale_of_place;
+    }
+}
+
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    static_cast<shared::ScatteringUniforms*>(to)->albedo_before =
+        static_cast<float>(number(character, "albedo_before"));
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"output"};
+constexpr std::array<UniformField, 1> fields = {
+    {{"albedo_before", offsetof(shared::ScatteringUniforms, albedo_before)}}};
+/// Light that scatters, the albedo that it leaves by, its depth and its character, each times the skin's matte.
+constexpr std::array<ShadingTarget, 3> targets = {{{"skin light", "skin light, multisampled"},
+                                                   {"skin albedo", "skin albedo, multisampled"},
+                                                   {"skin depth", "skin depth, multisampled", PixelFormat::rg32f}}};
+constexpr ShadingPart shading = {
+    .output_file = "light/skin_targets.glsl",
+    .hooks = hooks,
+    .uniforms = {"light/scattering_uniforms.glsl", "ScatteringUniforms", sizeof(shared::ScatteringUniforms), fields,
+                 write},
+    .targets = targets,
+};
+
 }  // namespace
 
 std::span<const GaussianTerm> scatter_profile(const CharacterState& character) {
@@ -336,8 +374,10 @@ const Effect scattering_effect = {
     .settings = settings,
     .owner = SettingOwner::view,
     .stage = Stage::scene,
+    .find_facts = find_facts,
     .need = need,
     .declare = declare,
+    .shading = &shading,
     .studies = scattering_studies,
     .hard_cases = hard_cases,
 };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rig/light/separable_kernel.h"
-#include "runtime/frame/effect.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
 #include "runtime/light/scatter_passes.h"
 

@@ -5,6 +5,7 @@
 #include "runtime/draw/draw_casters.h"
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/light/shadow_maps.h"
 #include "runtime/measure/frame_study.h"
@@ -153,6 +154,29 @@ constexpr std::array<HardCase, 3> hard_cases = {{
      [](ViewFrame& view) { view.lighting = &odd_lights(); }},
 }};
 
+/// Maps that stand are read without being drawn.
+bool takes_part(const FrameState& /*frame*/, const CharacterState& character) { return character.shadow_lights > 0; }
+
+void bind(FrameState& frame, CharacterState& /*character*/, std::uint32_t unit) {
+    const auto& maps = frame.scene->own<ShadowMaps>();
+    glBindTextureUnit(unit, maps.depth.name());
+    glBindSampler(unit, maps.nearest.name());
+}
+
+void reads(FrameState& frame) {
+    if (frame.on(shadows_effect)) frame.graph.reads(frame.resources.shadow_maps);
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"lit"};
+constexpr ShadingPart shading = {
+    .file = "light/shadow.glsl",
+    .hooks = hooks,
+    .takes_part = takes_part,
+    .textures = 1,
+    .bind = bind,
+    .reads = reads,
+};
+
 }  // namespace
 
 const Effect shadows_effect = {
@@ -161,8 +185,10 @@ const Effect shadows_effect = {
     .settings = settings,
     .owner = SettingOwner::scene,
     .stage = Stage::light,
+    .find_in_view = place_shadow_maps,
     .need = need,
     .declare = declare,
+    .shading = &shading,
     .studies = studies,
     .hard_cases = hard_cases,
 };

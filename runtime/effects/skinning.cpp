@@ -4,7 +4,7 @@
 #include <array>
 
 #include "rig/deform/deform.h"
-#include "runtime/frame/effect.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/frame_state.h"
 #include "runtime/measure/errors.h"
@@ -55,6 +55,13 @@ void declare(FrameState& frame) {
     for (CharacterState* character : frame.characters) {
         if (character->on(skinning_effect)) declare_one(frame, *character);
     }
+}
+
+void finish(CharacterState& character) {
+    character.skinned.valid = true;
+    character.skinned.settings = character.settings;
+    character.skinned.active = character.active();
+    character.skinned.joints = character.stance.skinned_from_mesh;
 }
 
 /// The CPU's loop in single precision is the twin; both start from the rest surface.
@@ -109,6 +116,7 @@ const Effect skinning_effect = {
     .settings = {},
     .character_need = need,
     .declare = declare,
+    .finish = finish,
     .studies = studies,
     .hard_cases = hard_cases,
 };

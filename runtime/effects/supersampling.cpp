@@ -8,6 +8,7 @@
 
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
 #include "runtime/measure/antialiasing_study.h"

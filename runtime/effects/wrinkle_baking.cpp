@@ -5,6 +5,7 @@
 
 #include "rig/wrinkles/wrinkle_error.h"
 #include "runtime/effects/baker.h"
+#include "runtime/effects/effects.h"
 
 namespace blush {
 namespace {

@@ -6,10 +6,15 @@
 #include "rig/wrinkles/wrinkle_error.h"
 #include "runtime/appearance/appearance_gpu.h"
 #include "runtime/appearance/signed_texture.h"
-#include "runtime/frame/effect.h"
+#include "runtime/effects/effects.h"
+#include "runtime/gl/shared_blocks.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/measure/appearance_frames.h"
 #include "runtime/measure/appearance_probe.h"
+
+namespace blush::shared {
+#include "shaders/wrinkles/wrinkles_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -162,6 +167,46 @@ constexpr std::array<HardCase, 1> hard_cases = {{
     {"face without maps", "is drawn as it is", [](Face& /*face*/) {}},
 }};
 
+bool of_differences(const CharacterState& character) { return character.settings.choice("wrinkles", "encoding") == 1; }
+
+std::uint32_t variant(const FrameState& /*frame*/, const CharacterState& character) {
+    return of_differences(character) ? 1 : 0;
+}
+
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    auto& out = *static_cast<shared::WrinklesUniforms*>(to);
+    const WrinkleSet& set = *character.asset.appearance().wrinkles;
+    std::array<float, std::size_t{4} * BLUSH_MOST_WRINKLE_MASKS> weights{};
+    zone_weights_of(character, weights);
+    for (std::size_t z = 0; z < weights.size(); ++z) out.weights[z / 4][static_cast<glm::length_t>(z % 4)] = weights[z];
+    const glm::vec2 scale = 1.0F / (set.part.to - set.part.from);
+    out.part = glm::vec4(scale, -set.part.from * scale);
+    out.range = set.range;
+}
+
+void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t unit) {
+    const WrinkleTextures& textures = wrinkle_textures(character);
+    glBindTextureUnit(unit, (of_differences(character) ? textures.differences : textures.derivatives).name());
+    glBindTextureUnit(unit + 1, textures.masks.name());
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"relief"};
+constexpr std::array<ShadingVariant, 1> variants = {{{"WRINKLE_DIFFERENCES"}}};
+constexpr std::array<UniformField, 3> fields = {{{"weights[0]", offsetof(shared::WrinklesUniforms, weights)},
+                                                 {"part", offsetof(shared::WrinklesUniforms, part)},
+                                                 {"range", offsetof(shared::WrinklesUniforms, range)}}};
+constexpr ShadingPart shading = {
+    .file = "wrinkles/wrinkles.glsl",
+    .hooks = hooks,
+    .materials = materials_of(MaterialKind::skin),
+    .variants = variants,
+    .variant = variant,
+    .uniforms = {"wrinkles/wrinkles_uniforms.glsl", "WrinklesUniforms", sizeof(shared::WrinklesUniforms), fields,
+                 write},
+    .textures = 2,
+    .bind = bind,
+};
+
 }  // namespace
 
 const Effect wrinkles_effect = {
@@ -171,6 +216,7 @@ const Effect wrinkles_effect = {
     .stage = Stage::light,
     .character_need = need,
     .declare = declare,
+    .shading = &shading,
     .studies = studies,
     .hard_cases = hard_cases,
 };

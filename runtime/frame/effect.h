@@ -1,8 +1,8 @@
 #pragma once
-/// An effect is one thing with five faces, declared in one place: settings, the predicate that says whether a scene
-/// needs it, the passes that it adds, its slow exact twin, its hard cases. Nothing else in the house knows it by name:
-/// the frame walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard
-/// cases. docs/adding_an_effect.md is the checklist.
+/// An effect is one thing with six faces, declared in one place: settings, the predicate that says whether a scene
+/// needs it, the passes that it adds, its part of shading, its slow exact twin, its hard cases. Nothing else in the
+/// house knows it by name: the frame walks the registry, `explain` reads the predicates, `accuracy` the twins, the
+/// stability tests the hard cases. docs/adding_an_effect.md is the checklist.
 
 #include <array>
 #include <functional>
@@ -15,6 +15,7 @@
 
 #include "rig/face.h"
 #include "runtime/character.h"
+#include "runtime/frame/shading_part.h"
 #include "runtime/frame_report.h"
 #include "runtime/settings.h"
 #include "runtime/view.h"
@@ -102,25 +103,26 @@ struct Effect {
     std::span<const Setting> settings;
     SettingOwner owner = SettingOwner::character;  ///< of its settings
     Stage stage = Stage::surface;
+    /// Find what predicates and passes ask, before any need is: of the characters, and of what the view has been given
+    /// (lights, places). Null: nothing to find.
+    void (*find_facts)(FrameState&) = nullptr;
+    void (*find_in_view)(FrameState&) = nullptr;
     /// Reads facts and settings; where it depends on another effect's need, that one stands earlier in the registry.
     /// One of the two: asked once for the view, or for each character. Neither: it takes no part in a frame.
     Need (*need)(const FrameState&) = nullptr;
     Need (*character_need)(const FrameState&, const CharacterState&) = nullptr;
     /// Adds passes, once for all characters. Null: shading does it.
     void (*declare)(FrameState&) = nullptr;
+    /// What it brings to shading; null: nothing.
+    const ShadingPart* shading = nullptr;
+    /// Remembers what its passes have left, at the end of a frame, for each character that it was on for.
+    void (*finish)(CharacterState&) = nullptr;
     /// `millimetres_a_unit`: scale of the face, for errors in millimetres.
-    std::vector<Study> (*studies)(const Device&, const Face&, double millimetres_a_unit, bool quick);
+    std::vector<Study> (*studies)(const Device&, const Face&, double millimetres_a_unit, bool quick) = nullptr;
     std::span<const HardCase> hard_cases;
 };
 
 /// All effects, in the order in which a frame applies them.
 std::span<const Effect* const> effects();
-
-extern const Effect wrinkle_baking_effect, wrinkles_effect, appearance_baking_effect, blood_effect;
-extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
-    antialiasing_effect, supersampling_effect, reprojection_effect;
-extern const Effect parts_effect, depth_of_field_effect, bloom_effect, exposure_effect, film_grain_effect;
-extern const Effect shadows_effect, translucency_effect, reflection_effect, environment_effect, occlusion_effect,
-    scattering_effect;
 
 }  // namespace blush

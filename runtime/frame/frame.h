@@ -43,9 +43,11 @@ void declare_shade(FrameState& frame);
 void declare_tone(FrameState& frame, ResourceId to);
 void declare_copy(FrameState& frame, ResourceId from, ResourceId to);
 /// The host's depth into the scene's, before anything is shaded.
-void declare_read_depth(FrameState& frame);
+void declare_read_depth(FrameState& frame, ResourceId to);
 /// The scene's depth into the host's.
 void declare_write_depth(FrameState& frame, ResourceId target);
+/// Velocities of what is seen into the framebuffer that the host has for them.
+void declare_write_velocities(FrameState& frame);
 /// A picture over what the host's framebuffer holds, or over its rectangle there.
 void declare_compose(FrameState& frame, ResourceId from, ResourceId target);
 /// Makes the device's CommonPasses where they are not there yet, and sets frame.common.

@@ -62,17 +62,16 @@ void place_shadow_maps(FrameState& frame) {
     const bool off = frame.scene->settings.choice("shadows", "method") == 1;
     const bool sharp = frame.scene->settings.choice("shadows", "edges") == 1;
     for (CharacterState* character : frame.characters) {
-        character->shader_lights.clear();
-        character->shadow_lights = 0;
-        for (const std::uint32_t l : character->reaching) {
+        if (off) continue;
+        for (std::size_t k = 0; k < character->reaching.size(); ++k) {
+            const std::uint32_t l = character->reaching[k];
             const LightSource& source = frame.lights[l];
-            character->shader_lights.push_back(shader_light(source, character->origin_world));
-            if (off || !source.casts_shadow) continue;
+            if (!source.casts_shadow) continue;
             const std::optional<ShadowPlace> place = place_shadow_map(
                 source, character->centre_world, character->radius_world, nearest_caster(frame, source, *character));
             if (!place) continue;
             // The tile follows once all maps are counted.
-            character->shader_lights.back().shadow.x = static_cast<float>(maps.maps.size());
+            character->shader_lights[k].shadow.x = static_cast<float>(maps.maps.size());
             ++character->shadow_lights;
             maps.maps.push_back({character->index, l, *place, {}});
         }

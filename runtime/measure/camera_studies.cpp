@@ -134,7 +134,7 @@ std::vector<Study> exposure_studies(const Device& device, const Face& face, doub
             shown->draw();
             const FrameState& state = shown->character.frame();
             float found = 0;
-            glGetTextureImage(state.graph[state.resources.log2_exposure].handle, 0, GL_RED, GL_FLOAT, sizeof(found),
+            glGetTextureImage(state.graph[*state.resources.log2_exposure].handle, 0, GL_RED, GL_FLOAT, sizeof(found),
                               &found);
             const double exact = log2_exposure(log2_average_luminance(*before, how), 0.18, 0, 6);
             const double error = std::abs(static_cast<double>(found) - exact);

@@ -9,7 +9,7 @@ centroid in vec3 normal_world;
 centroid in vec4 tangent_world;
 centroid in vec2 texture_uv[6];
 centroid in vec2 layout_uv;
-#ifdef AMBIENT_OCCLUSION
+#ifdef CALLS_VISIBILITY
 centroid in vec4 ambient_visibility;
 #endif
 
@@ -17,9 +17,7 @@ centroid in vec4 ambient_visibility;
 const float largest_radiance = 60000.0;
 
 layout(location = 0) out vec4 radiance_linear;
-#ifdef SCATTER
-#include "light/skin_targets.glsl"
-#endif
+#insert output_effects
 
 Uv with_derivatives(vec2 uv) { return Uv(uv, dFdx(uv), dFdy(uv)); }
 
@@ -31,7 +29,7 @@ Interpolants interpolants() {
     at.normal_world = normal_world;
     at.tangent_world = tangent_world;
     at.ambient_visibility = vec4(1.0);
-#ifdef AMBIENT_OCCLUSION
+#ifdef CALLS_VISIBILITY
     at.ambient_visibility = ambient_visibility;
 #endif
     at.layout_uv = with_derivatives(layout_uv);
@@ -44,15 +42,8 @@ void main() {
     Surface s = model_surface(interpolants());
     float opacity = covered(s.opacity);
     Lighting lit = model_lighting(s);
-    vec3 radiance = lit.reflected;
-    // What enters the skin wanders on the screen; the diffusion adds what leaves.
-#if defined(SCATTER) && defined(SKIN)
-    write_skin(s, lit);
-#else
-    radiance += light_from_inside(s, lit);
-#ifdef SCATTER
-    write_no_skin(opacity);
-#endif
-#endif
-    radiance_linear = vec4(min(radiance, vec3(largest_radiance)), opacity);
+    vec3 inside = light_from_inside(s, lit);
+    // What an effect writes to targets of its own it takes from here.
+#call output(s, lit, opacity, inside)
+    radiance_linear = vec4(min(lit.reflected + inside, vec3(largest_radiance)), opacity);
 }

@@ -6,6 +6,7 @@
 
 #include "rig/blood/appearance_transfer.h"
 #include "rig/blood/skin_inversion.h"
+#include "runtime/effects/effects.h"
 #include "runtime/files/appearance_file.h"
 #include "runtime/files/face_appearance.h"
 #include "runtime/files/face_file.h"

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "runtime/effects/effects.h"
 #include "runtime/files/appearance_file.h"
 #include "runtime/files/face_file.h"
 #include "runtime/files/output_file.h"

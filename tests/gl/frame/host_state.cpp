@@ -13,7 +13,7 @@
 namespace blush {
 namespace {
 
-constexpr GLuint units = 8, block_bindings = 8, draw_buffers = 8, viewports = 16;
+constexpr GLuint units = 24, block_bindings = 8, draw_buffers = 8, viewports = 16;
 
 // Every capability of GL 4.5 core that is not indexed.
 constexpr GLenum switches[] = {
