@@ -44,6 +44,12 @@ struct WarmUpProgress {
     std::optional<std::string> failure;   ///< as FrameReport::failure; it ends with one
 };
 
+/// Shaders for a host's own program (docs/integrating.md).
+struct ShadingText {
+    std::string vertex;    ///< whole
+    std::string fragment;  ///< all but outputs and main(), which calls model_surface(interpolants()) and model_lighting()
+};
+
 class Scene {
 public:
     static Result<Scene> create(const Device& device);
@@ -70,6 +76,18 @@ public:
     /// call it until it is done, between frames or before the first. Controls and poses stay; the next frame of a
     /// temporal mode stands alone. Restores every GL state that it touches.
     WarmUpProgress warm_up(View& view, const ViewFrame& like, std::uint32_t most_programs = 1);
+
+    /// For a host that shades the characters with programs of its own: makes all that shading reads (surfaces, shadow
+    /// maps, blood, blocks of numbers) for a view, and draws no picture. It stands until the scene is next drawn,
+    /// deformed or prepared. Restores every GL state that it touched.
+    const FrameReport& prepare(View& view, const ViewFrame& frame);
+    /// The shaders of one primitive, as prepare() has found its effects: Character::surface().primitives by index. They
+    /// change where the effects that are on do. Status: the character is not of the scene, or has no such primitive.
+    Result<ShadingText> shading_text(View& view, const Character& character, std::size_t primitive);
+    /// Binds what a program of shading_text() reads, and leaves it bound: the vertex array, uniform blocks and storage
+    /// blocks, textures with their samplers from unit 0 on. Draw with glDrawElements and the primitive's range of 32-bit
+    /// indices. Error as of shading_text().
+    Status bind_shading(View& view, const Character& character, std::size_t primitive);
 
     /// The report of a view's last frame.
     static const FrameReport& report(const View& view);

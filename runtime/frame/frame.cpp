@@ -484,6 +484,25 @@ void draw_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
     if (std::optional<Error> failure = frame.shared.programs.take_failure()) frame.report.failure = failure->message;
 }
 
+void hand_over_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
+    begin_view(frame, scene, view);
+    frame.sampling = {};
+    frame.picture = 0;
+    if (make_common_passes(frame)) {
+        find_needs(frame);
+        find_shading(frame);
+        frame.graph.clear();
+        frame.resources = {};
+        for (CharacterState* character : frame.characters) import_surface(frame, *character);
+        declare_stage(frame, Stage::surface);
+        declare_stage(frame, Stage::light);
+        declare_host_shading(frame);
+        run(frame, view);
+        for (CharacterState* character : frame.characters) remember_surface(*character);
+    }
+    if (std::optional<Error> failure = frame.shared.programs.take_failure()) frame.report.failure = failure->message;
+}
+
 void deform_only(FrameState& frame, SceneState& scene, bool forced) {
     static const ViewFrame no_view;
     static const ViewFrame forced_view = [] {

@@ -18,6 +18,9 @@ void end_scene_frame(SceneState& scene, bool keep_surfaces);
 /// Draws one view of the frame that begin_scene_frame() started; frame.report says what was done.
 void draw_view(FrameState& frame, SceneState& scene, const ViewFrame& view);
 
+/// Makes all that shading reads for a view, and leaves shading to the host.
+void hand_over_view(FrameState& frame, SceneState& scene, const ViewFrame& view);
+
 /// Makes the surfaces of a scene's characters, and nothing else.
 void deform_only(FrameState& frame, SceneState& scene, bool forced = false);
 
@@ -40,6 +43,8 @@ void draw_screen(const FrameState& frame);
 
 /// Passes that every frame has, in passes/. declare_copy: between textures.
 void declare_shade(FrameState& frame);
+/// In its place, where the host shades: blocks are filled, and all that shading reads is made.
+void declare_host_shading(FrameState& frame);
 void declare_tone(FrameState& frame, ResourceId to);
 void declare_copy(FrameState& frame, ResourceId from, ResourceId to);
 /// The host's depth into the scene's, before anything is shaded.

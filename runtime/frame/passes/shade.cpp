@@ -169,15 +169,19 @@ void bind_targets(FrameState& frame, const FrameGraph& graph) {
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_depth);
 }
 
-void shade(FrameState& frame, const FrameGraph& graph) {
-    DrawLists& lists = frame.own<DrawLists>();
-    bind_targets(frame, graph);
+void write_blocks(FrameState& frame) {
     for (CharacterState* character : frame.characters) {
         if (!character->report->on_screen) continue;
         write_frame_block(frame, *character);
         write_effects_block(frame, *character);
         if (frame.picture == 0) write_draw_blocks(*character);
     }
+}
+
+void shade(FrameState& frame, const FrameGraph& graph) {
+    DrawLists& lists = frame.own<DrawLists>();
+    bind_targets(frame, graph);
+    write_blocks(frame);
     forget_program(frame);
 
     glEnable(GL_DEPTH_TEST);
@@ -198,6 +202,18 @@ void shade(FrameState& frame, const FrameGraph& graph) {
     glDisable(GL_CULL_FACE);
 }
 
+/// What shading reads of the frame, whoever does it.
+void declare_reads(FrameState& frame) {
+    for (const CharacterState* character : frame.characters) {
+        frame.graph.reads(character->resources.positions)
+            .reads(character->resources.normals)
+            .reads(character->resources.tangents);
+    }
+    for (const Effect* effect : effects()) {
+        if (effect->shading != nullptr && effect->shading->reads != nullptr) effect->shading->reads(frame);
+    }
+}
+
 /// Every program that the lists need; a failure is reported and draws nothing.
 void require_programs(FrameState& frame, const DrawLists& lists) {
     for (const std::vector<DrawItem>* items : {&lists.solid, &lists.blended}) {
@@ -214,20 +230,21 @@ void declare_shade(FrameState& frame) {
     require_programs(frame, lists);
     FrameGraph& graph = frame.graph;
     graph.pass("shade", [&frame](const FrameGraph& made) { shade(frame, made); });
-    for (const CharacterState* character : frame.characters) {
-        graph.reads(character->resources.positions)
-            .reads(character->resources.normals)
-            .reads(character->resources.tangents);
-    }
-    for (const Effect* effect : effects()) {
-        if (effect->shading != nullptr && effect->shading->reads != nullptr) effect->shading->reads(frame);
-    }
+    declare_reads(frame);
     for (std::size_t i = 0; i < frame.resources.resolve_count; ++i) graph.writes(frame.resources.to_resolve[i].from);
     if (frame.view->host_depth == HostDepth::none) {
         graph.writes(frame.resources.scene_depth);
     } else {
         graph.modifies(frame.resources.scene_depth);
     }
+}
+
+void declare_host_shading(FrameState& frame) {
+    const ResourceId host = frame.graph.import_framebuffer("the host's shading", 0, {});
+    frame.graph.pass("hand over", [&frame](const FrameGraph&) { write_blocks(frame); });
+    declare_reads(frame);
+    frame.graph.writes(host);
+    frame.graph.present(host);
 }
 
 }  // namespace blush
