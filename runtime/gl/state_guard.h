@@ -58,7 +58,7 @@ private:
     static void restore(GLenum target, GLuint index, const Binding& binding);
 
     std::array<GLboolean, switches.size()> enabled_{};
-    std::array<GLint, texture_units> textures_{}, multisampled_textures_{}, samplers_{};
+    std::array<GLint, texture_units> textures_{}, multisampled_textures_{}, array_textures_{}, samplers_{};
     std::array<Binding, uniform_bindings> uniform_blocks_{};
     std::array<Binding, storage_bindings> storage_blocks_{};
     GLint active_unit_ = 0, program_ = 0, vertex_array_ = 0, draw_framebuffer_ = 0, read_framebuffer_ = 0,
