@@ -6,7 +6,6 @@
 #include <array>
 
 #include "runtime/frame/frame.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -134,7 +133,6 @@ const Effect bloom_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = bloom_studies,
     .hard_cases = hard_cases,
 };
 

@@ -8,7 +8,6 @@
 #include "rig/head/material_kind.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -221,7 +220,6 @@ const Effect depth_of_field_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = depth_of_field_studies,
     .hard_cases = hard_cases,
 };
 

@@ -5,7 +5,6 @@
 
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -139,7 +138,6 @@ const Effect exposure_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = exposure_studies,
     .hard_cases = hard_cases,
 };
 

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "runtime/frame/frame.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -65,7 +64,6 @@ const Effect film_grain_effect = {
     .stage = Stage::display,
     .need = need,
     .declare = declare,
-    .studies = film_grain_studies,
     .hard_cases = hard_cases,
 };
 

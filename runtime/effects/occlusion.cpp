@@ -5,7 +5,6 @@
 
 #include "runtime/frame/effect.h"
 #include "runtime/frame/frame_state.h"
-#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {
@@ -32,8 +31,6 @@ Need need(const FrameState& frame, const CharacterState& character) {
     return {.on = true, .reason = "light comes from all around, and the face hides some of it from itself"};
 }
 
-std::vector<Study> studies(const Device&, const Face&, double, bool) { return {}; }
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a face without coefficients", "lit as if it hid nothing", [](Face&) {}},
 }};
@@ -46,7 +43,6 @@ const Effect occlusion_effect = {
     .settings = settings,
     .stage = Stage::light,
     .character_need = need,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

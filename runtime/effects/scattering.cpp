@@ -338,7 +338,6 @@ const Effect scattering_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = scattering_studies,
     .hard_cases = hard_cases,
 };
 

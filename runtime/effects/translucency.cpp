@@ -5,7 +5,6 @@
 #include "runtime/frame/effect.h"
 #include "runtime/frame/frame_state.h"
 #include "runtime/light/shadow_maps.h"
-#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {
@@ -33,11 +32,6 @@ Need need(const FrameState& frame, const CharacterState& character) {
     return {.on = true, .reason = "a light with a shadow map may stand behind thin skin"};
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    return frame_study(device, face, millimetres_a_unit,
-                       {"translucency.strength", {"1", "0"}, 0, "1", &study_backlight(), 2.5F});
-}
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a sheet without thickness", "bright, and finite",
      [](Face& face) {
@@ -53,7 +47,6 @@ const Effect translucency_effect = {
     .settings = settings,
     .stage = Stage::light,
     .character_need = need,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -1,17 +1,13 @@
 #pragma once
-/// An effect is one thing with five faces, declared in one place: settings, the predicate that says whether a scene
-/// needs it, the passes that it adds, its slow exact twin, its hard cases. Nothing else in the house knows it by name:
-/// the frame walks the registry, `explain` reads the predicates, `accuracy` the twins, the stability tests the hard
-/// cases. docs/adding_an_effect.md is the checklist.
+/// An effect is one thing with four faces, declared in one place: settings, the predicate that says whether a scene
+/// needs it, the passes that it adds, its hard cases. Nothing else in the frame knows it by name: the frame walks the
+/// registry, `explain` reads the predicates, the stability tests the hard cases. The fifth, its slow exact twin, stands
+/// apart in runtime/measure/, which no engine links. docs/adding_an_effect.md is the checklist.
 
 #include <array>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "rig/face.h"
 #include "runtime/character.h"
@@ -56,29 +52,6 @@ struct Need {
     bool can_be_forced = true;  ///< false: the face has nothing for the effect to work on
 };
 
-/// One way to compute something, to be compared with others: how long `run` takes, how far `error` says it is off.
-struct Variant {
-    std::string label;          ///< "deformation.method=sparse"
-    std::function<void()> run;  ///< complete when it returns
-    struct Error {
-        double mean = 0, worst = 0;  ///< in the study's unit
-        /// Of red, green and blue apart, where a study tells; else zero.
-        std::array<double, 3> channel_mean{}, channel_worst{};
-    };
-    std::function<Error()> error;
-    std::string work;  ///< counted: "52 targets, 14 passes, 1.4 M deltas"
-    bool is_default = false;
-};
-
-/// Variants of one task on one face, with the reference that their errors are measured against.
-struct Study {
-    std::string name;       ///< "52 of 52 targets active, 26,719 vertices"
-    std::string reference;  ///< "the sum in double precision on the CPU"
-    std::string unit;       ///< "mm", "degrees", "CIEDE2000"
-    std::vector<Variant> variants;
-    std::shared_ptr<void> keeps;  ///< whatever the variants' functions refer to
-};
-
 /// A scene in which the effect might break: changes a face and its controls before they are loaded and drawn.
 struct HardCase {
     std::string_view name;
@@ -108,8 +81,6 @@ struct Effect {
     Need (*character_need)(const FrameState&, const CharacterState&) = nullptr;
     /// Adds passes, once for all characters. Null: shading does it.
     void (*declare)(FrameState&) = nullptr;
-    /// `millimetres_a_unit`: scale of the face, for errors in millimetres.
-    std::vector<Study> (*studies)(const Device&, const Face&, double millimetres_a_unit, bool quick);
     std::span<const HardCase> hard_cases;
 };
 
