@@ -5,12 +5,13 @@
 /// apart in runtime/measure/, which no engine links. docs/adding_an_effect.md is the checklist.
 
 #include <array>
-#include <optional>
 #include <span>
 #include <string_view>
 
 #include "rig/face.h"
 #include "runtime/character.h"
+#include "runtime/frame/hard_case.h"
+#include "runtime/frame/setting.h"
 #include "runtime/frame_report.h"
 #include "runtime/settings.h"
 #include "runtime/view.h"
@@ -19,16 +20,6 @@ namespace blush {
 
 struct CharacterState;
 struct FrameState;
-
-/// One of a few named choices, or (without choices) a number in a range.
-struct Setting {
-    std::string_view name;
-    std::string_view meaning;
-    std::span<const std::string_view> choices = {};
-    std::uint8_t default_choice = 0;
-    double lowest = 0, highest = 0, default_number = 0;  ///< of a number; in the unit that `meaning` names
-    std::optional<SettingOwner> owner = std::nullopt;    ///< where it is not the effect's
-};
 
 /// Where in a frame an effect's passes stand (runtime/frame/frame.cpp).
 enum class Stage : std::uint8_t {
@@ -52,17 +43,6 @@ struct Need {
     bool can_be_forced = true;  ///< false: the face has nothing for the effect to work on
 };
 
-/// A scene in which the effect might break: changes a face and its controls before they are loaded and drawn.
-struct HardCase {
-    std::string_view name;
-    std::string_view expectation;
-    void (*make)(Face& face);
-    /// Weight of every target of that face.
-    float weight = 1;
-    /// Changes what the frame is drawn for; may be null.
-    void (*look)(ViewFrame& view) = nullptr;
-};
-
 /// A setting that takes an effect out of every frame.
 inline constexpr std::array<std::string_view, 2> yes_or_no = {"yes", "no"};
 constexpr Setting shown_setting(std::string_view meaning) { return {"shown", meaning, yes_or_no}; }
@@ -76,7 +56,7 @@ struct Effect {
     SettingOwner owner = SettingOwner::character;  ///< of its settings
     Stage stage = Stage::surface;
     /// Reads facts and settings; where it depends on another effect's need, that one stands earlier in the registry.
-    /// One of the two: asked once for the view, or for each character. Neither: it takes no part in a frame.
+    /// One of the two: asked once for the view, or for each character.
     Need (*need)(const FrameState&) = nullptr;
     Need (*character_need)(const FrameState&, const CharacterState&) = nullptr;
     /// Adds passes, once for all characters. Null: shading does it.
@@ -87,7 +67,7 @@ struct Effect {
 /// All effects, in the order in which a frame applies them.
 std::span<const Effect* const> effects();
 
-extern const Effect wrinkle_baking_effect, wrinkles_effect, appearance_baking_effect, blood_effect;
+extern const Effect wrinkles_effect, blood_effect;
 extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
     antialiasing_effect, supersampling_effect, reprojection_effect;
 extern const Effect parts_effect, depth_of_field_effect, bloom_effect, exposure_effect, film_grain_effect;

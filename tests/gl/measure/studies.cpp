@@ -1,4 +1,4 @@
-// Which effects are studied: all of them, but for those that say why not.
+// Which effects and bakers are studied: all of them, but for those that say why not.
 
 #include "runtime/measure/studies.h"
 
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/bake/baker.h"
 #include "runtime/frame/effect.h"
 #include "runtime/measure/accuracy.h"
 #include "tests/gl_fixture.h"
@@ -17,10 +18,11 @@ namespace {
 std::set<std::string_view> names_of_all_that_is_studied() {
     std::set<std::string_view> names;
     for (const Effect* effect : effects()) names.insert(effect->name);
+    for (const Baker* baker : bakers()) names.insert(baker->name);
     return names;
 }
 
-TEST(Studies, EveryEffectHasOneOrSaysWhyNot) {
+TEST(Studies, EveryEffectAndBakerHasOneOrSaysWhyNot) {
     for (const std::string_view name : names_of_all_that_is_studied()) {
         SCOPED_TRACE(name);
         const auto found = std::ranges::find(studied(), name, &Studied::name);

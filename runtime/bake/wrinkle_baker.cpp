@@ -1,8 +1,10 @@
 /// The baker of wrinkle maps (`blush bake wrinkles`): work that was done before any frame, so that frames do not do it.
 
+#include <algorithm>
 #include <array>
 
-#include "runtime/frame/effect.h"
+#include "rig/face.h"
+#include "runtime/bake/baker.h"
 
 namespace blush {
 namespace {
@@ -50,11 +52,10 @@ constexpr std::array<HardCase, 2> hard_cases = {{
 
 }  // namespace
 
-const Effect wrinkle_baking_effect = {
+const Baker wrinkle_baker = {
     .name = "wrinkle_baking",
     .what = "finds ahead of time where and how the skin folds",
     .settings = settings,
-    .stage = Stage::surface,
     .hard_cases = hard_cases,
 };
 

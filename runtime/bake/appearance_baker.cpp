@@ -3,7 +3,8 @@
 
 #include <array>
 
-#include "runtime/frame/effect.h"
+#include "rig/face.h"
+#include "runtime/bake/baker.h"
 
 namespace blush {
 namespace {
@@ -40,11 +41,10 @@ constexpr std::array<HardCase, 1> hard_cases = {{
 
 }  // namespace
 
-const Effect appearance_baking_effect = {
+const Baker appearance_baker = {
     .name = "appearance_baking",
     .what = "finds ahead of time what pigments colour the skin",
     .settings = settings,
-    .stage = Stage::surface,
     .hard_cases = hard_cases,
 };
 
