@@ -13,7 +13,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -236,35 +235,6 @@ void declare(FrameState& frame) {
     if (frame.sampling.temporal && frame.on(velocities_effect)) declare_speeds(frame, weights);
 }
 
-constexpr StudiedMode preset(std::string_view label, std::string_view choice) {
-    return {.label = label,
-            .work = "one sample, filtered",
-            .mode = "smaa_1x",
-            .setting = "antialiasing.preset",
-            .choice = choice};
-}
-
-constexpr std::array<StudiedMode, 11> studied = {{
-    {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
-    {.label = "antialiasing.mode=msaa4", .work = "4 samples", .mode = "msaa4", .is_default = true},
-    {.label = "antialiasing.mode=mlaa", .work = "one sample, filtered", .mode = "mlaa"},
-    preset("smaa_1x, preset low", "low"),
-    preset("smaa_1x, preset medium", "medium"),
-    preset("smaa_1x, preset high", "high"),
-    preset("smaa_1x, preset ultra", "ultra"),
-    {.label = "antialiasing.mode=smaa_s2x", .work = "two pictures, filtered", .mode = "smaa_s2x"},
-    {.label = "antialiasing.mode=smaa_t2x", .work = "two frames, filtered", .mode = "smaa_t2x", .frames = 2},
-    {.label = "antialiasing.mode=smaa_4x",
-     .work = "two frames of two pictures, filtered",
-     .mode = "smaa_4x",
-     .frames = 2},
-    {.label = "antialiasing.mode=supersampled", .work = "16 pictures", .mode = "supersampled"},
-}};
-
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    return antialiasing_studies(device, face, studied);
-}
-
 /// Whatever the settings under test, through the filter with all that it has.
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"light beyond half precision behind the face", "edges and weights stay in range", [](Face&) {}, 1,
@@ -285,7 +255,6 @@ const Effect antialiasing_effect = {
     .stage = Stage::filter,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

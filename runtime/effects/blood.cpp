@@ -7,8 +7,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/appearance_frames.h"
-#include "runtime/measure/appearance_probe.h"
 
 namespace blush::shared {
 #include "shaders/blood/blood_uniforms.glsl"
@@ -79,32 +77,6 @@ void declare(FrameState& frame) {
     }
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
-    if (!probe || !probe->state().asset.appearance().pigments) return {};
-    Study study{"anger on the face's texture, 256 x 256 points",
-                "equation 7.6 and the table on the CPU",
-                "CIEDE2000",
-                {},
-                probe};
-    Variant on;
-    on.label = "blood";
-    on.is_default = true;
-    on.work = "3 lookups a pixel and 1 of the texture";
-    on.run = [probe] { probe->draw_colors("anger"); };
-    on.error = [probe] { return probe->color_error("anger"); };
-    study.variants.push_back(std::move(on));
-    Variant off;
-    off.label = "left out";
-    off.work = "1 lookup of the texture";
-    off.run = [probe] { probe->draw_colors(""); };
-    off.error = [probe] { return probe->color_error("anger", false); };
-    study.variants.push_back(std::move(off));
-    std::vector<Study> result = blood_frame_study(device, face, millimetres_a_unit);
-    result.push_back(std::move(study));
-    return result;
-}
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"face without maps of its pigments", "is drawn as it is", [](Face& /*face*/) {}},
 }};
@@ -161,7 +133,6 @@ const Effect blood_effect = {
     .character_need = need,
     .declare = declare,
     .shading = &shading,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

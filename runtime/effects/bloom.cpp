@@ -7,7 +7,6 @@
 
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -135,7 +134,6 @@ const Effect bloom_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = bloom_studies,
     .hard_cases = hard_cases,
 };
 

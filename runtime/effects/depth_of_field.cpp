@@ -9,7 +9,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -222,7 +221,6 @@ const Effect depth_of_field_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = depth_of_field_studies,
     .hard_cases = hard_cases,
 };
 

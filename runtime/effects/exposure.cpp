@@ -6,7 +6,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -143,7 +142,6 @@ const Effect exposure_effect = {
     .find_facts = find_facts,
     .need = need,
     .declare = declare,
-    .studies = exposure_studies,
     .hard_cases = hard_cases,
 };
 

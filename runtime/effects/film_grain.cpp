@@ -4,7 +4,6 @@
 
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -66,7 +65,6 @@ const Effect film_grain_effect = {
     .stage = Stage::display,
     .need = need,
     .declare = declare,
-    .studies = film_grain_studies,
     .hard_cases = hard_cases,
 };
 

@@ -5,7 +5,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -77,20 +76,6 @@ void declare(FrameState& frame) {
     }
 }
 
-/// The settings of the study of antialiasing compare both ways to resolve with everything else.
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {{
-        {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
-        {.label = "multisampling.resolve=average",
-         .work = "4 samples",
-         .mode = "msaa4",
-         .setting = "multisampling.resolve",
-         .choice = "average"},
-        {.label = "multisampling.resolve=hdr", .work = "4 samples", .mode = "msaa4", .is_default = true},
-    }};
-    return antialiasing_studies(device, face, modes);
-}
-
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"light beyond half precision behind the face", "the resolve stays finite", [](Face&) {}, 1,
      [](ViewFrame& view) {
@@ -112,7 +97,6 @@ const Effect multisampling_effect = {
     .stage = Stage::resolve,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -5,8 +5,6 @@
 
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
-#include "runtime/measure/errors.h"
-#include "runtime/measure/study_scene.h"
 
 namespace blush {
 namespace {
@@ -65,45 +63,6 @@ void declare(FrameState& frame) {
     }
 }
 
-Study study_of(const Device& device, const Face& face, std::size_t active) {
-    std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
-    Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
-                    std::to_string(face.positions.size()) + " vertices",
-                "normals recomputed on the deformed mesh in double precision (rig/deform/deform_exact.h)",
-                "degrees",
-                {},
-                scene};
-    if (!scene) return study;
-    for (const NormalMethod method : {NormalMethod::authored, NormalMethod::recomputed}) {
-        const std::string_view choice = source_choices[static_cast<std::size_t>(method)];
-        Variant variant;
-        variant.label = "normals.source=" + std::string(choice);
-        variant.is_default = method == NormalMethod::authored;
-        const bool turns =
-            method == NormalMethod::recomputed || std::ranges::any_of(face.primitives, [](const Primitive& primitive) {
-                return primitive.normal_source == NormalSource::recomputed;
-            });
-        variant.work = turns ? "deformation, and the fan of every moved vertex" : "deformation with normal deltas";
-        variant.run = [scene, method, turns] {
-            scene->stream_out().add_targets_sparse(method);
-            if (turns) scene->stream_out().turn_normals(method);
-            glFinish();
-        };
-        variant.error = [scene, choice] {
-            const Status chosen = scene->character.set("normals.source", choice);
-            return chosen ? angle_error(scene->read().normals, scene->exact.normals) : Variant::Error{};
-        };
-        study.variants.push_back(std::move(variant));
-    }
-    return study;
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool quick) {
-    std::vector<Study> result;
-    for (const std::size_t count : study_counts(face, quick)) result.push_back(study_of(device, face, count));
-    return result;
-}
-
 /// Adds a target that moves every vertex to centre + factor * (vertex - centre), without NORMAL deltas.
 void add_scaling_target(Face& face, glm::vec3 factor) {
     Bounds bounds;
@@ -149,7 +108,6 @@ const Effect normals_effect = {
     .find_facts = find_facts,
     .character_need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

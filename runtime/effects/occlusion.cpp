@@ -7,7 +7,6 @@
 #include "runtime/frame/frame_state.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/occlusion_gpu.h"
-#include "runtime/measure/frame_study.h"
 
 namespace blush::shared {
 #include "shaders/light/occlusion_uniforms.glsl"
@@ -37,8 +36,6 @@ Need need(const FrameState& frame, const CharacterState& character) {
     }
     return {.on = true, .reason = "light comes from all around, and the face hides some of it from itself"};
 }
-
-std::vector<Study> studies(const Device&, const Face&, double, bool) { return {}; }
 
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a face without coefficients", "lit as if it hid nothing", [](Face&) {}},
@@ -83,7 +80,6 @@ const Effect occlusion_effect = {
     .stage = Stage::light,
     .character_need = need,
     .shading = &shading,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

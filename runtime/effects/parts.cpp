@@ -10,7 +10,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/frame_study.h"
 
 namespace blush::shared {
 #include "shaders/draw/parts_uniforms.glsl"
@@ -85,16 +84,6 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
         return {.on = false, .reason = "no material is named as eyes, mouth or hair", .can_be_forced = false};
     }
     return {.on = true, .reason = "the face has eyes, a mouth or hair"};
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    std::vector<Study> both;
-    for (const char* setting : {"parts.eyes", "parts.hair"}) {
-        const std::string own = std::string(setting) == "parts.eyes" ? "wet" : "strands";
-        auto one = frame_study(device, face, millimetres_a_unit, {setting, {own, "plain"}, 0, own, nullptr});
-        std::ranges::move(one, std::back_inserter(both));
-    }
-    return both;
 }
 
 /// Names the test face's only material as a part.
@@ -196,7 +185,6 @@ const Effect parts_effect = {
     .stage = Stage::light,
     .character_need = need,
     .shading = &shading,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

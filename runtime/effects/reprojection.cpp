@@ -8,7 +8,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -88,19 +87,6 @@ void declare(FrameState& frame) {
     if (frame.on(velocities_effect)) frame.graph.reads(frame.resources.velocities).reads(frame.resources.speeds);
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {{
-        {.label = "antialiasing.mode=smaa_1x", .work = "one frame alone", .mode = "smaa_1x"},
-        {.label = "antialiasing.mode=smaa_t2x",
-         .work = "two frames",
-         .mode = "smaa_t2x",
-         .frames = 2,
-         .is_default = true},
-        {.label = "antialiasing.mode=smaa_4x", .work = "two frames of two pictures", .mode = "smaa_4x", .frames = 2},
-    }};
-    return antialiasing_studies(device, face, modes);
-}
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a face that is not there", "the background, frame after frame",
      [](Face& face) {
@@ -118,7 +104,6 @@ const Effect reprojection_effect = {
     .stage = Stage::history,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -378,7 +378,6 @@ const Effect scattering_effect = {
     .need = need,
     .declare = declare,
     .shading = &shading,
-    .studies = scattering_studies,
     .hard_cases = hard_cases,
 };
 

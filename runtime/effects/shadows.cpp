@@ -8,7 +8,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/light/shadow_maps.h"
-#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {
@@ -97,20 +96,6 @@ void declare(FrameState& frame) {
     frame.graph.writes(frame.resources.shadow_maps);
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    std::vector<Study> result = frame_study(device, face, millimetres_a_unit,
-                                            {"shadows.size", {"512", "1024", "2048"}, 1, "2048", &study_backlight()});
-    for (Study& study : frame_study(device, face, millimetres_a_unit,
-                                    {"shadows.edges", {"soft", "sharp"}, 0, "soft", &study_backlight()})) {
-        result.push_back(std::move(study));
-    }
-    for (Study& study : frame_study(device, face, millimetres_a_unit,
-                                    {"shadows.method", {"maps", "off"}, 0, "maps", &study_backlight()})) {
-        result.push_back(std::move(study));
-    }
-    return result;
-}
-
 const Lighting& light_inside() {
     static const Lighting lighting = [] {
         Lighting inside;
@@ -189,7 +174,6 @@ const Effect shadows_effect = {
     .need = need,
     .declare = declare,
     .shading = &shading,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -11,7 +11,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -69,19 +68,6 @@ void declare(FrameState& frame) {
     frame.resources.speeds = to;
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {{
-        {.label = "antialiasing.mode=none", .work = "1 picture", .mode = "none"},
-        {.label = "supersampling.factor=2",
-         .work = "4 pictures",
-         .mode = "supersampled",
-         .setting = "supersampling.factor",
-         .choice = "2"},
-        {.label = "supersampling.factor=4", .work = "16 pictures", .mode = "supersampled", .is_default = true},
-    }};
-    return antialiasing_studies(device, face, modes);
-}
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a face that is not there", "every picture is the background, and so is their mean",
      [](Face& face) {
@@ -99,7 +85,6 @@ const Effect supersampling_effect = {
     .stage = Stage::average,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -8,7 +8,6 @@
 #include "runtime/frame/frame_state.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/shadow_maps.h"
-#include "runtime/measure/frame_study.h"
 
 namespace blush::shared {
 #include "shaders/light/translucency_uniforms.glsl"
@@ -38,11 +37,6 @@ Need need(const FrameState& frame, const CharacterState& character) {
     }
     if (!character.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
     return {.on = true, .reason = "a light with a shadow map may stand behind thin skin"};
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    return frame_study(device, face, millimetres_a_unit,
-                       {"translucency.strength", {"1", "0"}, 0, "1", &study_backlight(), 2.5F});
 }
 
 constexpr std::array<HardCase, 1> hard_cases = {{
@@ -90,7 +84,6 @@ const Effect translucency_effect = {
     .stage = Stage::light,
     .character_need = need,
     .shading = &shading,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -9,7 +9,6 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -143,9 +142,6 @@ void declare(FrameState& frame) {
     if (last_picture && frame.view->velocity_framebuffer != 0) declare_write_velocities(frame);
 }
 
-/// Of no use by themselves: what T2x makes of them is measured with it.
-std::vector<Study> studies(const Device& /*device*/, const Face& /*face*/, double /*mm*/, bool /*quick*/) { return {}; }
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a camera on the surface", "what was behind the camera has the largest velocity there is", [](Face&) {}, 1,
      [](ViewFrame& view) { view.camera.view_from_world[3] = glm::dvec4(0, 0, 0, 1); }},
@@ -161,7 +157,6 @@ const Effect velocities_effect = {
     .stage = Stage::light,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "runtime/appearance/appearance_gpu.h"
-#include "runtime/frame/effect.h"
 #include "runtime/measure/portrait.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 
