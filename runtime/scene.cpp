@@ -116,7 +116,7 @@ void Scene::draw_depth(const DepthFrame& depth) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(depth.depth_convention.reversed ? GL_GREATER : GL_LESS);
     forget_program(frame);
-    for (const Casters casters : {Casters::solid, Casters::hair}) {
+    for (const Casters casters : all_casters) {
         for (CharacterState* character : state_->characters) {
             draw_casters(frame, *character, casters, maps.program, depth.clip_from_world);
         }

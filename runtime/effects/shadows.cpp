@@ -69,7 +69,7 @@ void draw_maps(FrameState& frame) {
     glClearNamedFramebufferfv(maps.framebuffer.name(), GL_DEPTH, 0, &far_depth);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP);  // what stands before or behind the map's range still casts
-    for (const Casters casters : {Casters::solid, Casters::hair}) {
+    for (const Casters casters : all_casters) {
         for (const ShadowMaps::Map& map : maps.maps) {
             const auto side = static_cast<GLsizei>(map.tile.side);
             glViewport(static_cast<GLint>(map.tile.x), static_cast<GLint>(map.tile.y), side, side);

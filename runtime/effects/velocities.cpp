@@ -64,13 +64,14 @@ void set_matrix(GLint location, const glm::dmat4& matrix) {
 
 /// What blends is passed over, but for the core of hair: its velocity is that of what is behind it.
 void draw_primitive(FrameState& frame, CharacterState& character, const Velocities& own, const Camera& last,
-                    const Primitive& primitive, std::size_t node, bool mirrored) {
+                    const Primitive& primitive, std::size_t node, bool mirrored, bool with_alpha_test) {
     const bool blended = is_blended(character.face, primitive);
     if (blended && !is_hair_card(character, primitive)) return;
     const Material* material =
         primitive.material >= 0 ? &character.face.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
     const bool alpha_test =
         material != nullptr && material->alpha_mode != AlphaMode::opaque && material->base_color_srgb.image >= 0;
+    if (alpha_test != with_alpha_test) return;
     if (alpha_test) character.model->bind_maps(primitive.material, base_color_texture);
     use_program(frame, own.programs[alpha_test ? 1 : 0]);
 
@@ -106,13 +107,15 @@ void draw(FrameState& frame, const FrameGraph& graph) {
     }
     glEnable(GL_DEPTH_TEST);
     forget_program(frame);
-    for (CharacterState* character : frame.characters) {
-        if (!character->report->on_screen) continue;
-        bind_surfaces(own, *character);
-        glBindVertexArray(own.vertex_array.name());
-        each_drawn_primitive(*character, [&](const Primitive& primitive, std::size_t node, bool mirrored) {
-            draw_primitive(frame, *character, own, last, primitive, node, mirrored);
-        });
+    for (const bool with_alpha_test : {false, true}) {  // a program each, whatever the number of characters
+        for (CharacterState* character : frame.characters) {
+            if (!character->report->on_screen) continue;
+            bind_surfaces(own, *character);
+            glBindVertexArray(own.vertex_array.name());
+            each_drawn_primitive(*character, [&](const Primitive& primitive, std::size_t node, bool mirrored) {
+                draw_primitive(frame, *character, own, last, primitive, node, mirrored, with_alpha_test);
+            });
+        }
     }
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
@@ -130,6 +131,10 @@ void list_draws(FrameState& frame, DrawLists& lists) {
             if (blended && is_hair_card(*character, primitive)) lists.cores.push_back(item);
         });
     }
+    // Only depth is written of cores: in any order, each program once.
+    std::ranges::sort(lists.cores, {}, [](const DrawItem& item) {
+        return std::pair(is_textured_hair(*item.character, *item.primitive), item.order);
+    });
     // Solid surfaces come in any order: each program is used once, and for it the nearest character first.
     std::ranges::sort(lists.solid, [](const DrawItem& a, const DrawItem& b) {
         return a.permutation < b.permutation || (a.permutation == b.permutation && a.order > b.order);

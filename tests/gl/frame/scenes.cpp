@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -215,6 +216,44 @@ TEST_F(Scenes, FurtherCharactersShareModelProgramsAndPasses) {
         EXPECT_EQ(report.program_switches, switches) << count;
         if (count > 1) {
             EXPECT_EQ(characters[0].state().model, characters[count - 1].state().model);
+        }
+    }
+}
+
+TEST_F(Scenes, PassesAndProgramsOfWholeHeadsDoNotGrowWithTheirNumber) {
+    const FaceAsset asset = *FaceAsset::load(std::filesystem::path(BLUSH_BINARY_DIR) / "assets/face.glb");
+    OrbitCamera orbit = asset.framing(1);
+    orbit.distance *= 4;
+    orbit.scene_radius *= 4;
+    const Offscreen offscreen = make_offscreen(32, 32);
+    ViewFrame frame = offscreen.view();
+    frame.camera = orbit.camera(1);
+    for (const char* mode : {"view", "smaa_t2x"}) {
+        std::size_t passes = 0;
+        std::uint32_t switches = 0;
+        for (const int count : {1, 3}) {
+            std::vector<Character> characters;
+            Scene scene = make_scene();
+            View view = make_view();
+            ASSERT_TRUE(view.set("antialiasing.mode", mode));
+            ASSERT_TRUE(scene.set("shadows.size", "512"));
+            for (int c = 0; c < count; ++c) {
+                characters.push_back(character_of(asset));
+                characters.back().place(moved({0.2 * c - 0.2, 0, 0}));
+                ASSERT_TRUE(scene.add(characters.back()));
+            }
+            for (const float value : {0.2F, 0.6F}) {  // the second frame has velocities
+                for (Character& character : characters) std::ranges::fill(character.controls(), value);
+                scene.draw(view, frame);
+            }
+            const FrameReport& report = Scene::report(view);
+            if (count == 1) {
+                passes = report.passes.size();
+                switches = report.program_switches;
+            }
+            EXPECT_EQ(report.passes.size(), passes) << mode;
+            // What blends is drawn from far to near, whatever its program.
+            EXPECT_LE(report.program_switches, switches + 2 * static_cast<std::uint32_t>(count - 1)) << mode;
         }
     }
 }
