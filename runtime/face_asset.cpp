@@ -51,6 +51,11 @@ AssetState::AssetState(Face loaded, Rig its) : face(std::move(loaded)), rig(std:
     has_triangles =
         std::ranges::any_of(face.primitives, [](const Primitive& primitive) { return primitive.index_count >= 3; });
     if (!bounds.empty()) skinned_origin = glm::dvec3(bounds.centre());
+    rest_placement = blush::rest_placement(face);
+    std::vector<glm::mat4> joints(joint_count);
+    skinned_from_meshes(face, rest_placement, skinned_origin, joints);
+    rest_skinned_from_mesh.assign(joints.begin(), joints.end());
+    sockets = find_sockets(face, head_and_eyes, eye_sockets, material_kind);
 }
 
 FaceAsset::FaceAsset(std::shared_ptr<const AssetState> state) : state_(std::move(state)) {}

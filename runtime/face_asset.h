@@ -12,6 +12,7 @@
 #include "rig/result.h"
 #include "runtime/camera.h"
 #include "runtime/files/face_appearance.h"
+#include "runtime/surface_point.h"
 
 namespace blush {
 
@@ -40,6 +41,13 @@ public:
     /// A camera that frames the head at rest, and of a bust what lies close to it, where the face stands in its file.
     /// aspect: width / height.
     OrbitCamera framing(float aspect) const;
+
+    /// A point of the surface, for Character::at() of any character of this asset. Error: the triangle does not exist
+    /// or no node draws it, or barycentrics that are not finite or add up to zero.
+    Result<SurfacePoint> attach(const SurfacePlace& place) const;
+    /// The place at rest that is nearest to a point in the file's space. Looks at every triangle. Nothing: the face
+    /// draws none, or the point is not finite.
+    std::optional<SurfacePlace> nearest_place(const DVec3& point_face) const;
 
     const AssetState& state() const { return *state_; }
 

@@ -15,6 +15,7 @@
 #include "runtime/face_asset.h"
 #include "runtime/frame/asset_state.h"
 #include "runtime/frame/frame_graph.h"
+#include "runtime/frame/stand.h"
 #include "runtime/frame/store.h"
 #include "runtime/frame_report.h"
 #include "runtime/gl/shared_blocks.h"
@@ -34,15 +35,6 @@ struct CharacterFacts {
     bool has_joints = false;
     bool skinned = false;  ///< skinned() holds what these joints, weights and settings give
     bool forced = false;
-};
-
-/// All that decides where each point of the surface stands in the world.
-struct Stance {
-    std::vector<ActiveTarget> active;
-    std::vector<glm::dmat4> world_from_node;
-    std::vector<glm::mat4> skinned_from_mesh;
-
-    bool operator==(const Stance&) const = default;
 };
 
 /// The surface as it was in an earlier frame of the scene.

@@ -18,22 +18,8 @@ namespace {
 void place_character(CharacterState& character) {
     character.rig.evaluate(character.controls, character.pose);
     if (character.blood) character.blood->apply(character.pose);
-    Stance& stance = character.stance;
-    find_active(character.pose.weights, stance.active);
+    find_stance(character, character.pose, character.face_from_node, character.stance);
     const AssetState& asset = character.facts_of_face;
-    place_nodes(character.face, character.pose, asset.head_and_eyes, character.face_from_node);
-    for (std::size_t n = 0; n < character.face_from_node.size(); ++n) {
-        stance.world_from_node[n] = character.world_from_face * character.face_from_node[n];
-    }
-    stance.world_from_node.back() = character.world_from_face * glm::translate(glm::dmat4(1), asset.skinned_origin);
-    if (character.host_joints.empty()) {
-        skinned_from_meshes(character.face, character.face_from_node, asset.skinned_origin, stance.skinned_from_mesh);
-    } else {
-        for (std::size_t j = 0; j < stance.skinned_from_mesh.size(); ++j) {
-            stance.skinned_from_mesh[j] = character.host_joints[j];
-            stance.skinned_from_mesh[j][3] -= glm::vec4(glm::vec3(asset.skinned_origin), 0);
-        }
-    }
     const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(character.world_from_face))));
     const double set_scale = character.settings.number("scattering", "millimetres_a_unit");
     const double of_face = set_scale > 0 ? set_scale : asset.scale.millimetres_a_unit;
