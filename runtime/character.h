@@ -12,6 +12,7 @@
 #include "rig/vectors.h"
 #include "runtime/device.h"
 #include "runtime/face_asset.h"
+#include "runtime/surface.h"
 #include "runtime/surface_point.h"
 
 namespace blush {
@@ -64,6 +65,9 @@ public:
     /// several nodes draw stands where the first of them does. Nothing: the point is of another asset, or was moved
     /// from. Needs no GL; allocates in the first call only.
     std::optional<SurfaceFrame> at(const SurfacePoint& point) const;
+
+    /// The deformed surface on the GPU, for a host that draws it itself: as the last draw or Scene::deform() left it.
+    PublishedSurface surface() const;
 
     /// Status: no such effect, setting or choice, or one that another owner has (runtime/settings.h).
     Status set(std::string_view setting, std::string_view choice);

@@ -112,6 +112,14 @@ void Scene::draw_depth(const DepthFrame& depth) {
     }
 }
 
+const FrameReport& Scene::deform() {
+    state_->device.make_current();
+    const gl::StateGuard guard;
+    FrameState& frame = own_view(*state_);
+    deform_only(frame, *state_);
+    return frame.report;
+}
+
 Scene::Surface Scene::read_deformed(const Character& character) {
     state_->device.make_current();
     const gl::StateGuard guard;

@@ -21,6 +21,7 @@
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/scene_lights.h"
 #include "runtime/settings.h"
+#include "runtime/surface.h"
 
 namespace blush {
 
@@ -107,6 +108,8 @@ struct CharacterState {
     DrawBlocks draw_blocks;
     gl::Buffer frame_block;
     Store store;
+
+    std::vector<SurfacePrimitive> published;  ///< what Character::surface() last said
 
     /// Whether an effect takes part in this frame for this character. Known once needs are found.
     bool on(const Effect& effect) const;
