@@ -1,6 +1,7 @@
 #pragma once
 /// FaceAsset: a face with its rig and its maps, loaded once, for any number of characters on any number of devices.
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -34,6 +35,8 @@ public:
     FaceAsset with_appearance(FaceAppearance appearance) const;
     FaceAsset with_occlusion(std::optional<OcclusionSet> occlusion) const;
 
+    /// The face as it is drawn: meshes whose vertices the file has far out stand near the origin, in nodes that bring
+    /// them there (rig/far_vertices.h); all else as the file says.
     const Face& face() const;
     const Rig& rig() const;
     const FaceAppearance& appearance() const;
@@ -48,6 +51,11 @@ public:
     /// The place at rest that is nearest to a point in the file's space. Looks at every triangle. Nothing: the face
     /// draws none, or the point is not finite.
     std::optional<SurfacePlace> nearest_place(const DVec3& point_face) const;
+
+    /// The distance between neighbouring floats where the file puts its farthest vertex, in millimetres: how exactly
+    /// the file can say where anything is. Vertices far out are drawn relative to the middle of their mesh, so that
+    /// this is all that is lost there.
+    double float_step_mm() const;
 
     const AssetState& state() const { return *state_; }
 

@@ -134,6 +134,12 @@ Scene::Surface Scene::read_deformed(const Character& character) {
     read(buffers.positions, surface.positions);
     read(buffers.normals, surface.normals);
     read(buffers.tangents, surface.tangents);
+    for (const Primitive& primitive : state.face.primitives) {
+        const glm::vec3 origin = state.facts_of_face.mesh_origin[primitive.mesh];
+        if (origin == glm::vec3(0)) continue;
+        for (std::uint32_t v = 0; v < primitive.vertex_count; ++v)
+            surface.positions[primitive.first_vertex + v] += origin;
+    }
     return surface;
 }
 

@@ -43,6 +43,9 @@ struct AssetState {
     std::vector<glm::dmat4> rest_placement;          ///< face_from_node at rest
     std::vector<glm::dmat4> rest_skinned_from_mesh;  ///< of all joints, less skinned_origin
     std::array<SocketSource, socket_count> sockets;
+    std::vector<glm::vec3> mesh_origin;  ///< of each mesh: what was taken off the file's vertices (rig/far_vertices.h)
+    std::vector<glm::dvec3> joint_mesh_origin;  ///< of each joint of all skins: that of the meshes that follow it
+    double float_step_mm = 0;                   ///< FaceAsset::float_step_mm()
     /// Tells surfaces apart: copies with other maps share it.
     std::shared_ptr<const char> geometry = std::make_shared<const char>();
 };

@@ -31,8 +31,11 @@ void find_stance(const CharacterState& character, const Pose& pose, std::span<gl
         return;
     }
     for (std::size_t j = 0; j < stance.skinned_from_mesh.size(); ++j) {
-        stance.skinned_from_mesh[j] = character.host_joints[j];
-        stance.skinned_from_mesh[j][3] -= glm::vec4(glm::vec3(asset.skinned_origin), 0);
+        // From the file's own vertices, which stand mesh_origin off ours, to the file's space less skinned_origin.
+        glm::dmat4 joint(character.host_joints[j]);
+        joint[3] = joint * glm::dvec4(asset.joint_mesh_origin[j], 1);
+        joint[3] -= glm::dvec4(asset.skinned_origin, 0);
+        stance.skinned_from_mesh[j] = glm::mat4(joint);
     }
 }
 
