@@ -123,6 +123,14 @@ void Scene::draw_depth(const DepthFrame& depth) {
     }
 }
 
+const FrameReport& Scene::deform() {
+    state_->device.make_current();
+    const gl::StateGuard guard;
+    FrameState& frame = own_view(*state_);
+    deform_only(frame, *state_);
+    return frame.report;
+}
+
 Scene::Surface Scene::read_deformed(const Character& character) {
     state_->device.make_current();
     const gl::DrawScope guard(state_->device.state().kept_states == 0);
@@ -133,10 +141,18 @@ Scene::Surface Scene::read_deformed(const Character& character) {
     const auto read = [](const gl::Buffer& buffer, auto& out) {
         glGetNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(out.size() * sizeof(out[0])), out.data());
     };
-    const SurfaceBuffers& buffers = state.morphed();
+    // Pins come after joints: only without any is the pinned surface still in the mesh's space.
+    const bool pinned = state.facts.pinned && !state.facts.has_joints && state.surface != nullptr;
+    const SurfaceBuffers& buffers = pinned ? *state.surface : state.morphed();
     read(buffers.positions, surface.positions);
     read(buffers.normals, surface.normals);
     read(buffers.tangents, surface.tangents);
+    for (const Primitive& primitive : state.face.primitives) {
+        const glm::vec3 origin = state.facts_of_face.mesh_origin[primitive.mesh];
+        if (origin == glm::vec3(0)) continue;
+        for (std::uint32_t v = 0; v < primitive.vertex_count; ++v)
+            surface.positions[primitive.first_vertex + v] += origin;
+    }
     return surface;
 }
 

@@ -96,8 +96,13 @@ public:
     /// every GL state that it touched.
     void draw_depth(const DepthFrame& frame);
 
+    /// Makes the surfaces of all characters, as the controls stand now, and draws nothing: for a host that draws
+    /// Character::surface() itself. No frame of its own: velocities do not see it. Restores every GL state that it
+    /// touched. Report: of this alone, until the next deform() or draw_depth().
+    const FrameReport& deform();
+
     /// Deforms (on the GPU, without drawing) and reads back: positions, normals and tangents of every vertex, in the
-    /// mesh's space.
+    /// mesh's space, as the file has it: before joints, and, of a face without joints, with pins.
     struct Surface {
         std::vector<Vec3> positions, normals;
         std::vector<Vec4> tangents;

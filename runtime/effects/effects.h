@@ -5,6 +5,7 @@
 
 namespace blush {
 
+extern const Effect pinning_effect;
 extern const Effect wrinkles_effect, blood_effect;
 extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
     antialiasing_effect, supersampling_effect, reprojection_effect;

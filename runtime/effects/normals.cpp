@@ -4,6 +4,7 @@
 #include <array>
 
 #include "runtime/effects/effects.h"
+#include "runtime/effects/normals.h"
 #include "runtime/frame/frame.h"
 
 namespace blush {
@@ -21,7 +22,7 @@ constexpr std::array<Setting, 1> settings = {{
 void find_facts(FrameState& frame) {
     for (CharacterState* character : frame.characters) {
         const AssetState& asset = character->facts_of_face;
-        character->normal_method = static_cast<NormalMethod>(character->settings.choice("normals", "source"));
+        character->normal_method = normal_method_of(*character);
         const auto& needs = character->normal_method == NormalMethod::authored ? asset.target_needs_turned_normals
                                                                                : asset.target_moves_normals;
         character->facts.any_turned_normals = std::ranges::any_of(needs, [](std::uint8_t turns) { return turns != 0; });
@@ -100,6 +101,10 @@ constexpr std::array<HardCase, 5> hard_cases = {{
 }};
 
 }  // namespace
+
+NormalMethod normal_method_of(const CharacterState& character) {
+    return static_cast<NormalMethod>(character.settings.choice("normals", "source"));
+}
 
 const Effect normals_effect = {
     .name = "normals",

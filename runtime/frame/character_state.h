@@ -16,15 +16,18 @@
 #include "runtime/frame/asset_state.h"
 #include "runtime/frame/frame_graph.h"
 #include "runtime/frame/shading_part.h"
+#include "runtime/frame/stand.h"
 #include "runtime/frame/store.h"
 #include "runtime/frame_report.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/scene_lights.h"
 #include "runtime/settings.h"
+#include "runtime/surface.h"
 
 namespace blush {
 
 struct Effect;
+struct PinnedSurface;
 
 /// What predicates ask of a character's pose; found once a frame.
 struct CharacterFacts {
@@ -33,17 +36,10 @@ struct CharacterFacts {
     bool any_turned_normals = false;          ///< some target of the face does
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
-    bool skinned = false;  ///< skinned() holds what these joints, weights and settings give
+    bool skinned = false;       ///< skinned() holds what these joints, weights and settings give
+    bool pinned = false;        ///< some vertex is pinned
+    bool pins_applied = false;  ///< the pinned surface is what this stance and these settings give
     bool forced = false;
-};
-
-/// All that decides where each point of the surface stands in the world.
-struct Stance {
-    std::vector<ActiveTarget> active;
-    std::vector<glm::dmat4> world_from_node;
-    std::vector<glm::mat4> skinned_from_mesh;
-
-    bool operator==(const Stance&) const = default;
 };
 
 /// The surface as it was in an earlier frame of the scene.
@@ -81,6 +77,7 @@ struct CharacterState {
         std::vector<glm::mat4> joints;
         EffectSettings settings;
     } skinned;
+    std::shared_ptr<PinnedSurface> pinned;  ///< none: the host pins nothing
     LastSurface last;
 
     // The frame being drawn.
@@ -121,6 +118,8 @@ struct CharacterState {
     gl::Buffer effects_block;  ///< numbers of effects: runtime/draw/shading.h
     std::vector<std::byte> effects_staging;
     Store store;
+
+    std::vector<SurfacePrimitive> published;  ///< what Character::surface() last said
 
     /// Whether an effect takes part in this frame for this character. Known once needs are found.
     bool on(const Effect& effect) const;

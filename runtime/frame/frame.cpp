@@ -8,6 +8,7 @@
 
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
+#include "runtime/deform/pinned_surface.h"
 #include "runtime/draw/shading.h"
 #include "runtime/frame/on_screen.h"
 #include "runtime/light/environment_map.h"
@@ -19,22 +20,8 @@ namespace {
 void place_character(CharacterState& character) {
     character.rig.evaluate(character.controls, character.pose);
     if (character.blood) character.blood->apply(character.pose);
-    Stance& stance = character.stance;
-    find_active(character.pose.weights, stance.active);
+    find_stance(character, character.pose, character.face_from_node, character.stance);
     const AssetState& asset = character.facts_of_face;
-    place_nodes(character.face, character.pose, asset.head_and_eyes, character.face_from_node);
-    for (std::size_t n = 0; n < character.face_from_node.size(); ++n) {
-        stance.world_from_node[n] = character.world_from_face * character.face_from_node[n];
-    }
-    stance.world_from_node.back() = character.world_from_face * glm::translate(glm::dmat4(1), asset.skinned_origin);
-    if (character.host_joints.empty()) {
-        skinned_from_meshes(character.face, character.face_from_node, asset.skinned_origin, stance.skinned_from_mesh);
-    } else {
-        for (std::size_t j = 0; j < stance.skinned_from_mesh.size(); ++j) {
-            stance.skinned_from_mesh[j] = character.host_joints[j];
-            stance.skinned_from_mesh[j][3] -= glm::vec4(glm::vec3(asset.skinned_origin), 0);
-        }
-    }
     const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(character.world_from_face))));
     character.scale_of_place = scale > 0 && std::isfinite(scale) ? scale : 1;
     character.millimetres_a_unit = asset.scale.millimetres_a_unit / character.scale_of_place;
@@ -57,6 +44,7 @@ void find_facts(CharacterState& character, bool forced) {
                     character.skinned.active == active &&
                     character.skinned.joints == character.stance.skinned_from_mesh;
     if (facts.active_targets != 0 || forced) character.stream_out.prepare();
+    find_pins(character);
 }
 
 /// Clip space of the host's convention to GL's own: a linear map of z and w.
@@ -254,6 +242,7 @@ void import_surface(FrameState& frame, CharacterState& character) {
     if (frame.picture == 0) {
         const bool made = character.facts.skinned && !character.facts.forced;
         character.surface = made ? &character.stream_out.skinned() : &character.morphed();
+        if (character.facts.pins_applied && !character.facts.forced) character.surface = &character.pinned->surface;
     }
     const SurfaceBuffers& surface = *character.surface;
     const auto count = static_cast<std::uint32_t>(character.face.positions.size());

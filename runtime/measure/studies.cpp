@@ -5,10 +5,11 @@
 namespace blush {
 
 std::span<const Studied> studied() {
-    static constexpr std::array<Studied, 25> all = {{
+    static constexpr std::array<Studied, 26> all = {{
         {"deformation", studies::deformation},
         {"normals", studies::normals},
         {"skinning", studies::skinning},
+        {"pinning", studies::pinning},
         {"wrinkle_baking", studies::wrinkle_baking},
         {"wrinkles", studies::wrinkles},
         {"appearance_baking", studies::appearance_baking},

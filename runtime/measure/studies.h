@@ -25,9 +25,9 @@ struct Studied {
 std::span<const Studied> studied();
 
 namespace studies {
-StudyMaker deformation, normals, skinning, wrinkle_baking, wrinkles, appearance_baking, blood, shadows, translucency,
-    reflection, environment, parts, scattering, depth_of_field, bloom, exposure, multisampling, antialiasing,
-    supersampling, reprojection, grain;
+StudyMaker deformation, normals, skinning, pinning, wrinkle_baking, wrinkles, appearance_baking, blood, shadows,
+    translucency, reflection, environment, parts, scattering, depth_of_field, bloom, exposure, multisampling,
+    antialiasing, supersampling, reprojection, grain;
 }  // namespace studies
 
 }  // namespace blush

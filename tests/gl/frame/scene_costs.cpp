@@ -81,6 +81,18 @@ Lighting all_kinds_of_light(GLuint shadow_map) {
     return lighting;
 }
 
+/// Its neck on a body that stands where the neck does at rest.
+void pin_neck(Character& character) {
+    const std::vector<std::uint32_t> border = character.asset().neck_border();
+    std::vector<Vec3> positions, normals;
+    for (const std::uint32_t v : border) {
+        positions.push_back(character.face().positions[v]);
+        normals.push_back(character.face().normals[v]);
+    }
+    ASSERT_TRUE(character.pin(border, 20));
+    ASSERT_TRUE(character.move_pins(positions, normals));
+}
+
 TEST_F(SceneCosts, NoEffectAllocatesInASteadyFrame) {
     const FaceAsset asset = *FaceAsset::load(std::filesystem::path(BLUSH_BINARY_DIR) / "assets/face.glb");
     const gl::Texture map = gl::make_texture(GL_TEXTURE_2D);
@@ -103,6 +115,7 @@ TEST_F(SceneCosts, NoEffectAllocatesInASteadyFrame) {
         for (int c = 0; c < count; ++c) {
             characters.push_back(*Character::create(device_, asset));
             ASSERT_TRUE(characters.back().set("normals.source", c == 0 ? "recomputed" : "authored"));
+            pin_neck(characters.back());
             ASSERT_TRUE(scene.add(characters.back()));
         }
         const Offscreen offscreen = make_offscreen(32, 32);
