@@ -64,6 +64,24 @@ TEST_F(AddedEffect, ItsSettingIsKnownByName) {
     EXPECT_EQ(*owner, SettingOwner::character);
 }
 
+TEST_F(AddedEffect, AShaderThatDoesNotCompileIsReportedAndDrawsNothing) {
+    // A driver's own message about it is no fault here.
+    device_ = *Device::headless(false);
+    character_ = make_character(device_, skin());
+    offscreen_ = make_offscreen(96, 96);
+    const Image warm = drawn("0.5");
+    ASSERT_TRUE(character_.set("frost.text", "bad"));
+    for (int again = 0; again < 2; ++again) {
+        const FrameReport& report = character_.draw(test::framed_view(character_, offscreen_));
+        ASSERT_TRUE(report.failure);
+        EXPECT_NE(report.failure->find("shader draw/face.frag does not compile"), std::string::npos) << *report.failure;
+        EXPECT_EQ(offscreen_.read().bytes, warm.bytes) << "what was there stays";
+    }
+    ASSERT_TRUE(character_.set("frost.text", "good"));
+    EXPECT_EQ(drawn("0.5").bytes, warm.bytes);
+    EXPECT_FALSE(character_.report().failure);
+}
+
 TEST_F(AddedEffect, IsLeftOutWithAReasonWhereNoTextureUnitIsLeft) {
     // Of the effects with textures, shadows and the surface's reflection come after it and go first.
     const Image warm = drawn("0");

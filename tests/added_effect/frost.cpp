@@ -26,14 +26,19 @@ struct FrostUniforms {
 };
 )"},
                                                   {"frost/frost.glsl", R"(
+#ifdef BAD_FROST
+this is not GLSL
+#endif
 layout(binding = FROST_UNIT) uniform sampler2D frost_map;
 void frost_colour(Interpolants at, inout vec3 color) {
     color = mix(color, texture(frost_map, at.layout_uv.at).rgb, frost.amount);
 }
 )"}}};
 
-constexpr std::array<Setting, 1> settings = {
-    {{.name = "amount", .meaning = "how white the skin is", .highest = 1, .default_number = 0}}};
+constexpr std::array<std::string_view, 2> good_or_bad = {"good", "bad"};
+constexpr std::array<Setting, 2> settings = {
+    {{.name = "amount", .meaning = "how white the skin is", .highest = 1, .default_number = 0},
+     {"text", "good: its shader compiles; bad: it does not", good_or_bad}}};
 
 float amount(const CharacterState& character) {
     return static_cast<float>(character.settings.number("frost", "amount"));
@@ -63,13 +68,20 @@ void bind(FrameState& frame, CharacterState& /*character*/, std::uint32_t unit) 
     glBindTextureUnit(unit, map.name());
 }
 
+std::uint32_t variant(const FrameState& /*frame*/, const CharacterState& character) {
+    return character.settings.choice("frost", "text");
+}
+
 constexpr std::array<std::string_view, 1> hooks = {"colour"};
+constexpr std::array<ShadingVariant, 1> variants = {{{"BAD_FROST"}}};
 constexpr std::array<UniformField, 1> fields = {{{"amount", offsetof(shared::FrostUniforms, amount)}}};
 constexpr ShadingPart shading = {
     .file = "frost/frost.glsl",
     .own_files = files,
     .hooks = hooks,
     .materials = materials_of(MaterialKind::skin),
+    .variants = variants,
+    .variant = variant,
     .uniforms = {"frost/frost_uniforms.glsl", "FrostUniforms", sizeof(shared::FrostUniforms), fields, write},
     .textures = 1,
     .bind = bind,
