@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "rig/controls/rig.h"
 #include "rig/controls/rig_description.h"
@@ -51,6 +52,11 @@ public:
     /// The place at rest that is nearest to a point in the file's space. Looks at every triangle. Nothing: the face
     /// draws none, or the point is not finite.
     std::optional<SurfacePlace> nearest_place(const DVec3& point_face) const;
+
+    /// The edge where the neck ends: one vertex for each place on it, in order around it. Of the open borders of its
+    /// skin (of all, where nothing is skin) that come down to the lowest tenth of its height at rest and are at least
+    /// half as long as the longest of those, the lowest. Empty: it is closed below.
+    std::vector<std::uint32_t> neck_border() const;
 
     /// The distance between neighbouring floats where the file puts its farthest vertex, in millimetres: how exactly
     /// the file can say where anything is. Vertices far out are drawn relative to the middle of their mesh, so that

@@ -130,7 +130,9 @@ Scene::Surface Scene::read_deformed(const Character& character) {
     const auto read = [](const gl::Buffer& buffer, auto& out) {
         glGetNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(out.size() * sizeof(out[0])), out.data());
     };
-    const SurfaceBuffers& buffers = state.morphed();
+    // Pins come after joints: only without any is the pinned surface still in the mesh's space.
+    const bool pinned = state.facts.pinned && !state.facts.has_joints && state.surface != nullptr;
+    const SurfaceBuffers& buffers = pinned ? *state.surface : state.morphed();
     read(buffers.positions, surface.positions);
     read(buffers.normals, surface.normals);
     read(buffers.tangents, surface.tangents);

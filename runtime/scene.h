@@ -68,7 +68,7 @@ public:
     const FrameReport& deform();
 
     /// Deforms (on the GPU, without drawing) and reads back: positions, normals and tangents of every vertex, in the
-    /// mesh's space, as the file has it: before joints.
+    /// mesh's space, as the file has it: before joints, and, of a face without joints, with pins.
     struct Surface {
         std::vector<Vec3> positions, normals;
         std::vector<Vec4> tangents;

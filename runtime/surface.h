@@ -28,7 +28,7 @@ struct SurfacePrimitive {
 
 /// What the last draw or deformation of a character's scene left of it. Names, contents and matrices stand until the
 /// next one, or until the character goes; the names may be others then. Read only: other characters and later frames
-/// share them. Positions, normals and tangents are final: after targets and joints.
+/// share them. Positions, normals and tangents are final: after targets, joints and pins.
 struct PublishedSurface {
     VertexBuffer positions;     ///< 3 floats
     VertexBuffer normals;       ///< 3 floats, unit length

@@ -54,6 +54,15 @@
 // Storage block of the joints.
 #define BLUSH_JOINTS_BINDING 0
 
+// Storage blocks of the pins, and the size of their work group.
+#define BLUSH_PIN_FROM_POSITIONS_BINDING 0
+#define BLUSH_PIN_FROM_NORMALS_BINDING 1
+#define BLUSH_PIN_TO_POSITIONS_BINDING 2
+#define BLUSH_PIN_TO_NORMALS_BINDING 3
+#define BLUSH_PIN_TO_TANGENTS_BINDING 4
+#define BLUSH_PINS_BINDING 5
+#define BLUSH_PIN_INVOCATIONS 64
+
 // Storage block of the diffusion of several characters' skins, and the characters that it tells apart: further ones take
 // their numbers anew from the first.
 #define BLUSH_SCATTER_BINDING 0

@@ -26,6 +26,7 @@
 namespace blush {
 
 struct Effect;
+struct PinnedSurface;
 
 /// What predicates ask of a character's pose; found once a frame.
 struct CharacterFacts {
@@ -34,7 +35,9 @@ struct CharacterFacts {
     bool any_turned_normals = false;          ///< some target of the face does
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
-    bool skinned = false;  ///< skinned() holds what these joints, weights and settings give
+    bool skinned = false;       ///< skinned() holds what these joints, weights and settings give
+    bool pinned = false;        ///< some vertex is pinned
+    bool pins_applied = false;  ///< the pinned surface is what this stance and these settings give
     bool forced = false;
 };
 
@@ -73,6 +76,7 @@ struct CharacterState {
         std::vector<glm::mat4> joints;
         EffectSettings settings;
     } skinned;
+    std::shared_ptr<PinnedSurface> pinned;  ///< none: the host pins nothing
     LastSurface last;
 
     // The frame being drawn.

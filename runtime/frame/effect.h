@@ -117,6 +117,7 @@ struct Effect {
 std::span<const Effect* const> effects();
 
 extern const Effect wrinkle_baking_effect, wrinkles_effect, appearance_baking_effect, blood_effect;
+extern const Effect pinning_effect;
 extern const Effect deformation_effect, normals_effect, skinning_effect, velocities_effect, multisampling_effect,
     antialiasing_effect, supersampling_effect, reprojection_effect;
 extern const Effect parts_effect, depth_of_field_effect, bloom_effect, exposure_effect, film_grain_effect;

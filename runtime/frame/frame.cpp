@@ -8,6 +8,7 @@
 
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
+#include "runtime/deform/pinned_surface.h"
 #include "runtime/frame/on_screen.h"
 #include "runtime/light/shadow_maps.h"
 
@@ -51,6 +52,7 @@ void find_facts(CharacterState& character, bool forced) {
                     character.skinned.active == active &&
                     character.skinned.joints == character.stance.skinned_from_mesh;
     if (facts.active_targets != 0 || forced) character.stream_out.prepare();
+    find_pins(character);
 }
 
 /// Clip space of the host's convention to GL's own: a linear map of z and w.
@@ -209,6 +211,8 @@ void import_surface(FrameState& frame, CharacterState& character) {
     if (frame.picture == 0) {
         const bool made = character.facts.skinned && !character.on(skinning_effect);
         character.surface = made ? &character.stream_out.skinned() : &character.morphed();
+        if (character.facts.pins_applied && !character.on(pinning_effect))
+            character.surface = &character.pinned->surface;
     }
     const SurfaceBuffers& surface = *character.surface;
     const auto count = static_cast<std::uint32_t>(character.face.positions.size());

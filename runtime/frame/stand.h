@@ -1,6 +1,7 @@
 #pragma once
 /// Where a character stands: what its controls, nodes, joints and place make of it, without GL.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Stance {
     std::vector<ActiveTarget> active;
     std::vector<DMat4> world_from_node;  ///< of each node and, last, of skinned vertices
     std::vector<Mat4> skinned_from_mesh;
+    std::uint64_t pins = 0;  ///< another number whenever pins stand elsewhere; 0: nothing is pinned
 
     bool operator==(const Stance&) const = default;
 };
