@@ -135,8 +135,9 @@ void apply_pins(std::span<const PinnedVertex> ring, std::span<const Pin> pins, c
             }
             if (move == glm::vec3(0) && turn == glm::vec3(0)) continue;
             surface.positions[v] = surface.from_positions[v] + entry.influence * move;
-            pinned_normal = normalized_or(normal + entry.influence * turn, normal);
+            if (turn != glm::vec3(0)) pinned_normal = normalized_or(normal + entry.influence * turn, normal);
         }
+        if (pinned_normal == normal) continue;  // what does not turn keeps its bits
         surface.normals[v] = pinned_normal;
         surface.tangents[v] = orthogonal_tangent(surface.tangents[v], pinned_normal, surface.tangents[v]);
     }

@@ -47,12 +47,13 @@ void main() {
         precise vec3 moved = vec3(from_positions[3u * v], from_positions[3u * v + 1u], from_positions[3u * v + 2u]) + influence * move;
         precise vec3 turned = normal + influence * turn;
         position = moved;
-        pinned_normal = normalized_or(turned, normal);
+        pinned_normal = turn == vec3(0.0) ? normal : normalized_or(turned, normal);
     }
+    for (uint c = 0u; c < 3u; ++c) to_positions[3u * v + c] = position[c];
+    if (pinned_normal == normal) return;  // what does not turn keeps its bits
     vec4 tangent = vec4(to_tangents[4u * v], to_tangents[4u * v + 1u], to_tangents[4u * v + 2u], to_tangents[4u * v + 3u]);
     tangent = orthogonal_tangent(tangent, pinned_normal, tangent);
     for (uint c = 0u; c < 3u; ++c) {
-        to_positions[3u * v + c] = position[c];
         to_normals[3u * v + c] = pinned_normal[c];
         to_tangents[4u * v + c] = tangent[c];
     }

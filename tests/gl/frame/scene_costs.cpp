@@ -81,9 +81,10 @@ Lighting all_kinds_of_light(GLuint shadow_map) {
     return lighting;
 }
 
-/// Its neck on a body that stands where the neck does at rest.
-void pin_neck(Character& character) {
-    const std::vector<std::uint32_t> border = character.asset().neck_border();
+/// Some of its vertices on a body that has them where they are at rest. (The default face's bust is closed: it has no
+/// border.)
+void pin_some(Character& character) {
+    const std::vector<std::uint32_t> border = {0, 1, 2};
     std::vector<Vec3> positions, normals;
     for (const std::uint32_t v : border) {
         positions.push_back(character.face().positions[v]);
@@ -115,7 +116,7 @@ TEST_F(SceneCosts, NoEffectAllocatesInASteadyFrame) {
         for (int c = 0; c < count; ++c) {
             characters.push_back(*Character::create(device_, asset));
             ASSERT_TRUE(characters.back().set("normals.source", c == 0 ? "recomputed" : "authored"));
-            pin_neck(characters.back());
+            pin_some(characters.back());
             ASSERT_TRUE(scene.add(characters.back()));
         }
         const Offscreen offscreen = make_offscreen(32, 32);

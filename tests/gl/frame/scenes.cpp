@@ -398,7 +398,9 @@ TEST_F(Scenes, TheHostsDepthHidesTheFaceAndTheFacesDepthHidesTheHostsLaterGeomet
             for (std::uint32_t x = 0; x < side; ++x) {
                 const std::size_t p = std::size_t{y} * side + x;
                 const bool green = picture[4 * p] == 0 && picture[4 * p + 1] == 255;
-                if (x < side / 2) ASSERT_TRUE(green) << "the wall hides the face at " << x << ", " << y;
+                if (x < side / 2) {
+                    ASSERT_TRUE(green) << "the wall hides the face at " << x << ", " << y;
+                }
                 if (x >= side / 2) faces += green ? 0U : 1U;
                 if (way.samples > 1) continue;  // its depth cannot be read back
                 if (x < side / 2) {
@@ -406,7 +408,9 @@ TEST_F(Scenes, TheHostsDepthHidesTheFaceAndTheFacesDepthHidesTheHostsLaterGeomet
                     continue;
                 }
                 written += depth[p] != far_depth ? 1U : 0U;
-                if (!green) ASSERT_TRUE(reversed ? depth[p] > far_depth : depth[p] < far_depth) << x << ", " << y;
+                if (!green) {
+                    ASSERT_TRUE(reversed ? depth[p] > far_depth : depth[p] < far_depth) << x << ", " << y;
+                }
             }
         }
         EXPECT_GT(faces, 300U);
