@@ -8,7 +8,7 @@
 #include "rig/blood/skin_colour_table.h"
 #include "rig/wrinkles/texture_bytes.h"
 #include "runtime/appearance/signed_texture.h"
-#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/files/wrinkle_bake.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
@@ -140,11 +140,11 @@ Map<glm::vec3> normal_differences(const DerivativeMap& wrinkles, const NormalMap
 
 WrinkleTextures& wrinkle_textures(CharacterState& character) {
     const WrinkleSet& set = *character.asset.appearance().wrinkles;
-    const auto storage = static_cast<WrinkleStorage>(character.settings.choice(wrinkles_effect.name, "storage"));
+    const auto storage = static_cast<WrinkleStorage>(character.settings.choice(wrinkles_storage));
     WrinkleTextures& textures =
         character.model->own<std::array<WrinkleTextures, 3>>()[static_cast<std::size_t>(storage)];
     textures.storage = storage;
-    const bool differences = character.settings.choice(wrinkles_effect.name, "encoding") == 1;
+    const bool differences = character.settings.choice(wrinkles_encoding) == 1;
     if (!textures.masks) {
         textures.masks = mask_texture(set.masks);
         end_at_part(textures.masks, set);
@@ -179,9 +179,7 @@ void zone_weights_of(const CharacterState& character, std::span<float> out) {
     }
 }
 
-bool colour_from_pigments(const CharacterState& character) {
-    return character.settings.choice(blood_effect.name, "colour") == 1;
-}
+bool colour_from_pigments(const CharacterState& character) { return character.settings.choice(blood_colour) == 1; }
 
 namespace {
 
@@ -214,7 +212,7 @@ void make_residual(BloodTextures& textures, const ColourMap& map) {
 BloodTextures& blood_textures(CharacterState& character) {
     BloodTextures& textures = character.model->own<BloodTextures>();
     const SkinPigments& pigments = *character.asset.appearance().pigments;
-    make_table(textures, static_cast<std::uint32_t>(character.settings.number(blood_effect.name, "table_nodes")));
+    make_table(textures, static_cast<std::uint32_t>(character.settings.number(blood_table_nodes)));
     if (colour_from_pigments(character)) make_residual(textures, pigments.maps.residual);
     gl::require_program(textures.blend_program, {"screen.vert", "blood/blood_change.frag"});
     if (textures.pigments) return textures;

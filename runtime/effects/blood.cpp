@@ -5,7 +5,9 @@
 
 #include "runtime/appearance/appearance_gpu.h"
 #include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush::shared {
@@ -28,6 +30,7 @@ constexpr std::array<Setting, 3> settings = {{
      .highest = 512,
      .default_number = 64},
 }};
+using Own = OwnSetting<blood_effect, settings>;
 
 Need need(const FrameState& /*frame*/, const CharacterState& character) {
     if (!character.asset.appearance().pigments) {
@@ -35,7 +38,7 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
                 .reason = "the face has no maps of melanin and hemoglobin (blush bake appearance makes them)",
                 .can_be_forced = false};
     }
-    if (is_hidden(character.settings, "blood")) {
+    if (character.settings.choice(Own("shown")) == 1) {
         return {.on = false, .reason = "blood.shown says no", .can_be_forced = false};
     }
     if (colour_from_pigments(character)) return {.on = true, .reason = "blood.colour says pigments"};
@@ -124,6 +127,9 @@ constexpr ShadingPart shading = {
 };
 
 }  // namespace
+
+constinit const SettingId blood_colour = Own("colour");
+constinit const SettingId blood_table_nodes = Own("table_nodes");
 
 const Effect blood_effect = {
     .name = "blood",

@@ -4,6 +4,7 @@
 
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -16,6 +17,7 @@ constexpr std::array<Setting, 1> settings = {{
      "four dense targets each, as published",
      method_choices, sparse},
 }};
+using Own = OwnSetting<deformation_effect, settings>;
 
 Need need(const FrameState& /*frame*/, const CharacterState& character) {
     if (character.facts.active_targets == 0) {
@@ -30,7 +32,7 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
 void deform(CharacterState& character) {
     StreamOut& stream_out = character.stream_out;
     stream_out.set_active(character.active());
-    if (character.settings.choice("deformation", "method") == passes) {
+    if (character.settings.choice(Own("method")) == passes) {
         stream_out.add_targets_in_passes(character.normal_method);
     } else {
         stream_out.add_targets_sparse(character.normal_method);

@@ -9,6 +9,7 @@
 
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush::shared {
@@ -22,6 +23,7 @@ constexpr std::array<std::string_view, 2> method_choices = {"maps", "off"};
 constexpr std::array<Setting, 1> settings = {
     {{"method", "maps: lights with a shadow map of the host's are hidden by what it shows; off: they are not",
       method_choices}}};
+using Own = OwnSetting<host_shadows_effect, settings>;
 
 /// A light's map as one character sees it.
 struct HostMap {
@@ -54,7 +56,7 @@ float texel_width(const HostShadow& shadow, const glm::dvec3& place) {
 }
 
 void find_in_view(FrameState& frame) {
-    const bool off = frame.scene->settings.choice("host_shadows", "method") == 1;
+    const bool off = frame.scene->settings.choice(Own("method")) == 1;
     for (CharacterState* character : frame.characters) {
         HostMaps& own = character->own<HostMaps>();
         own.count = 0;
@@ -70,7 +72,7 @@ void find_in_view(FrameState& frame) {
 const HostMaps& maps_of(const CharacterState& character) { return *character.store.find<HostMaps>(); }
 
 Need need(const FrameState& frame, const CharacterState& character) {
-    if (frame.scene->settings.choice("host_shadows", "method") == 1) {
+    if (frame.scene->settings.choice(Own("method")) == 1) {
         return {.on = false, .reason = "host_shadows.method is off", .can_be_forced = false};
     }
     if (maps_of(character).count == 0) {

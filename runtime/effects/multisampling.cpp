@@ -5,6 +5,7 @@
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -18,13 +19,14 @@ constexpr std::array<Setting, 1> settings = {{
      "smooth once shown; auto: hdr for a display, average of a view that asks for radiance",
      resolve_choices, static_cast<std::uint8_t>(Resolve::of_the_view)},
 }};
+using Own = OwnSetting<multisampling_effect, settings>;
 
 struct Multisampling {
     gl::Program program;
 };
 
 Resolve resolve_of(const FrameState& frame) {
-    const auto wanted = static_cast<Resolve>(frame.settings.choice("multisampling", "resolve"));
+    const auto wanted = static_cast<Resolve>(frame.settings.choice(Own("resolve")));
     if (wanted != Resolve::of_the_view) return wanted;
     return frame.view->output == Output::display_srgb ? Resolve::hdr : Resolve::average;
 }

@@ -6,6 +6,7 @@
 #include "runtime/effects/effects.h"
 #include "runtime/effects/normals.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -18,6 +19,7 @@ constexpr std::array<Setting, 1> settings = {{
      "turned with the deformed surface everywhere",
      source_choices, static_cast<std::uint8_t>(NormalMethod::authored)},
 }};
+using Own = OwnSetting<normals_effect, settings>;
 
 void find_facts(FrameState& frame) {
     for (CharacterState* character : frame.characters) {
@@ -103,7 +105,7 @@ constexpr std::array<HardCase, 5> hard_cases = {{
 }  // namespace
 
 NormalMethod normal_method_of(const CharacterState& character) {
-    return static_cast<NormalMethod>(character.settings.choice("normals", "source"));
+    return static_cast<NormalMethod>(character.settings.choice(Own("source")));
 }
 
 const Effect normals_effect = {

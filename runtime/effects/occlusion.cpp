@@ -5,6 +5,7 @@
 
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/occlusion_gpu.h"
 
@@ -21,12 +22,13 @@ constexpr std::array<Setting, 2> settings = {{
     {"method", "baked: by nine coefficients a vertex; off: nothing hides ambient light", method_choices, 0},
     {"bounces", "on: what hides a place shines as the place itself does; off: it is black", bounce_choices, 0},
 }};
+using Own = OwnSetting<occlusion_effect, settings>;
 
 Need need(const FrameState& frame, const CharacterState& character) {
     if (!character.facts_of_face.occlusion) {
         return {.on = false, .reason = "no coefficients were baked for the face", .can_be_forced = false};
     }
-    if (character.settings.choice("occlusion", "method") == 1) {
+    if (character.settings.choice(Own("method")) == 1) {
         return {.on = false, .reason = "occlusion.method is off", .can_be_forced = false};
     }
     const Lighting& lighting = *frame.lighting;
@@ -52,7 +54,7 @@ void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
     }
     out.poses = static_cast<int>(set.poses.size());
     out.vertices = static_cast<int>(character.face.positions.size());
-    out.bounces = character.settings.choice("occlusion", "bounces") == 0 ? 1 : 0;
+    out.bounces = character.settings.choice(Own("bounces")) == 0 ? 1 : 0;
 }
 
 void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t /*unit*/) { bind_occlusion(character); }

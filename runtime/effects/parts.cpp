@@ -9,6 +9,7 @@
 #include "rig/head/eye_sockets.h"
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush::shared {
@@ -41,6 +42,7 @@ constexpr std::array<Setting, 6> settings = {{
      .highest = 0.6,
      .default_number = 0.14},
 }};
+using Own = OwnSetting<parts_effect, settings>;
 
 struct Parts {
     bool known = false;
@@ -108,9 +110,7 @@ constexpr std::array<HardCase, 4> hard_cases = {{
 void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
     auto& out = *static_cast<shared::PartsUniforms*>(to);
     const Parts& own = parts_of(character);
-    const auto number = [&character](std::string_view setting) {
-        return static_cast<float>(character.settings.number(parts_effect.name, setting));
-    };
+    const auto number = [&character](Own setting) { return static_cast<float>(character.settings.number(setting)); };
     out.lid_shade = number("lid_shade");
     out.iris_depth = own.cornea_of_its_own ? 0 : number("iris_depth");
     out.mouth_shade = number("mouth_shade");
@@ -149,8 +149,8 @@ void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
 }
 
 bool gives_model(const CharacterState& character, MaterialKind kind) {
-    if (kind == MaterialKind::eye) return character.settings.choice("parts", "eyes") == 0;
-    return kind != MaterialKind::hair || character.settings.choice("parts", "hair") == 0;
+    if (kind == MaterialKind::eye) return character.settings.choice(Own("eyes")) == 0;
+    return kind != MaterialKind::hair || character.settings.choice(Own("hair")) == 0;
 }
 
 void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t /*unit*/) {

@@ -4,6 +4,7 @@
 
 #include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/skin_tables.h"
 
@@ -30,11 +31,12 @@ constexpr std::array<Setting, 3> settings = {{
      0.3},
     {"intensity", "factor on the surface's reflection; 0: all light enters", {}, 0, 0, 1, 1},
 }};
+using Own = OwnSetting<reflection_effect, settings>;
 
 Need need(const FrameState& /*frame*/, const CharacterState& character) {
     if (character.facts_of_face.skin.parts.empty())
         return {.on = false, .reason = "the face has no skin", .can_be_forced = false};
-    if (character.settings.choice("reflection", "model") == 1) {
+    if (character.settings.choice(Own("model")) == 1) {
         return {.on = false, .reason = "reflection.model is ggx", .can_be_forced = false};
     }
     if (!character.skin.on_screen) return {.on = false, .reason = "no skin is on the screen"};
@@ -52,8 +54,8 @@ constexpr std::array<HardCase, 1> hard_cases = {{
 
 void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
     auto& out = *static_cast<shared::ReflectionUniforms*>(to);
-    out.roughness = static_cast<float>(character.settings.number("reflection", "roughness"));
-    out.intensity = static_cast<float>(character.settings.number("reflection", "intensity"));
+    out.roughness = static_cast<float>(character.settings.number(Own("roughness")));
+    out.intensity = static_cast<float>(character.settings.number(Own("intensity")));
 }
 
 void bind(FrameState& frame, CharacterState& /*character*/, std::uint32_t unit) {

@@ -8,6 +8,7 @@
 #include "runtime/effects/effects.h"
 #include "runtime/effects/scattering.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/scatter_projection.h"
 
@@ -66,6 +67,7 @@ constexpr std::array<Setting, 14> settings = {{
      SettingOwner::character},
     {"millimetres_a_unit", "scale of the face; 0: found from its size", {}, 0, 0, 1e6, 0, SettingOwner::character},
 }};
+using Own = OwnSetting<scattering_effect, settings>;
 
 /// What decides a character's kernel.
 struct Profile {
@@ -90,19 +92,17 @@ struct State {
     ResourceId first_image{}, second{}, third{}, stencil{}, scene{};
 };
 
-double number(const CharacterState& character, std::string_view setting) {
-    return character.settings.number("scattering", setting);
-}
+double number(const CharacterState& character, Own setting) { return character.settings.number(setting); }
 
 ScatterMethod method_of(const FrameState& frame) {
-    return static_cast<ScatterMethod>(frame.settings.choice("scattering", "method"));
+    return static_cast<ScatterMethod>(frame.settings.choice(Own("method")));
 }
 
-bool of_skin(const CharacterState& character) { return character.settings.choice("scattering", "material") == 0; }
+bool of_skin(const CharacterState& character) { return character.settings.choice(Own("material")) == 0; }
 
 /// Eq. 6.1 is a fit to skin: what else light scatters in has its profile's integral.
 bool is_fitted(const FrameState& frame, const CharacterState& character) {
-    return of_skin(character) && frame.settings.choice("scattering", "kernel") == 1;
+    return of_skin(character) && frame.settings.choice(Own("kernel")) == 1;
 }
 
 /// The width that the settings ask for, 1 for the profile's own millimetres.
@@ -151,7 +151,7 @@ void list_characters(FrameState& frame, State& own) {
     double reference_mm_a_unit = 0;
     for (const CharacterState* character : frame.characters) {
         if (!character->skin.on_screen) continue;
-        const Profile profile{scatter_kernel_shape(*character), character->settings.choice("scattering", "material")};
+        const Profile profile{scatter_kernel_shape(*character), character->settings.choice(Own("material"))};
         const auto found = std::ranges::find(own.profiles, profile);
         const auto index = static_cast<std::uint32_t>(found - own.profiles.begin());
         if (found == own.profiles.end()) {
@@ -164,11 +164,11 @@ void list_characters(FrameState& frame, State& own) {
     }
 }
 
-std::uint32_t samples_of(const FrameState& frame) { return 9U + 8U * frame.settings.choice("scattering", "samples"); }
+std::uint32_t samples_of(const FrameState& frame) { return 9U + 8U * frame.settings.choice(Own("samples")); }
 
 const std::vector<std::vector<KernelTap>>& separable_kernels(FrameState& frame, State& own) {
     const std::uint32_t samples = samples_of(frame);
-    const std::uint8_t kernel = frame.settings.choice("scattering", "kernel");
+    const std::uint8_t kernel = frame.settings.choice(Own("kernel"));
     if (own.samples == samples && own.kernel == kernel && own.kernel_profiles == own.profiles) return own.kernels;
     own.samples = samples;
     own.kernel = kernel;
@@ -340,7 +340,7 @@ constexpr ShadingPart shading = {
 }  // namespace
 
 std::span<const GaussianTerm> scatter_profile(const CharacterState& character) {
-    const std::uint8_t material = character.settings.choice(scattering_effect.name, "material");
+    const std::uint8_t material = character.settings.choice(Own("material"));
     if (material == 0) return skin_six_gaussians();
     static std::array<std::vector<GaussianTerm>, material_choices.size()> fitted = [] {
         std::array<std::vector<GaussianTerm>, material_choices.size()> made;
@@ -364,7 +364,7 @@ KernelShape scatter_kernel_shape(const CharacterState& character) {
 double scatter_follow_mm(const FrameState& frame, const CharacterState& character) {
     // Listing 6 fades a tap out at 300 * 1 / tan(fov / 2) * width of depth: for 20 degrees and a width of 0.014 at 42
     // thousandths of a head, 10 mm, three times the kernel's range.
-    const bool follows = frame.settings.choice("scattering", "follow_surface") == 0;
+    const bool follows = frame.settings.choice(Own("follow_surface")) == 0;
     return follows ? 3 * kernel_range_mm(scatter_kernel_shape(character)) : 0;
 }
 

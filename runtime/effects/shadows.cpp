@@ -6,7 +6,9 @@
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
 #include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/light/shadow_maps.h"
 
 namespace blush {
@@ -22,9 +24,10 @@ constexpr std::array<Setting, 3> settings = {{
     {"edges", "soft: as wide as the light's size and the distance of what casts them make them; sharp: as the map is",
      edge_choices, 0},
 }};
+using Own = OwnSetting<shadows_effect, settings>;
 
 Need need(const FrameState& frame) {
-    if (frame.scene->settings.choice("shadows", "method") == 1) {
+    if (frame.scene->settings.choice(Own("method")) == 1) {
         return {.on = false, .reason = "shadows.method is off", .can_be_forced = false};
     }
     if (frame.lights.empty()) return {.on = false, .reason = "no light shines", .can_be_forced = false};
@@ -163,6 +166,10 @@ constexpr ShadingPart shading = {
 };
 
 }  // namespace
+
+constinit const SettingId shadows_method = Own("method");
+constinit const SettingId shadows_size = Own("size");
+constinit const SettingId shadows_edges = Own("edges");
 
 const Effect shadows_effect = {
     .name = "shadows",

@@ -9,8 +9,10 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
 #include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -23,6 +25,7 @@ constexpr std::array<Setting, 1> settings = {{
      .highest = 16,
      .default_number = 4},
 }};
+using Own = OwnSetting<supersampling_effect, settings>;
 
 struct Supersampling {
     gl::Program program;
@@ -76,6 +79,8 @@ constexpr std::array<HardCase, 1> hard_cases = {{
 }};
 
 }  // namespace
+
+constinit const SettingId supersampling_factor = Own("factor");
 
 const Effect supersampling_effect = {
     .name = "supersampling",

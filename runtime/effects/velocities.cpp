@@ -7,7 +7,9 @@
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
 #include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush {
@@ -20,6 +22,7 @@ constexpr std::array<Setting, 1> settings = {{
      "stand alone",
      source_choices, 0},
 }};
+using Own = OwnSetting<velocities_effect, settings>;
 
 struct Velocities {
     std::array<gl::Program, 2> programs;  // [with alpha test]
@@ -151,6 +154,8 @@ constexpr std::array<HardCase, 1> hard_cases = {{
 }};
 
 }  // namespace
+
+constinit const SettingId velocities_source = Own("source");
 
 const Effect velocities_effect = {
     .name = "velocities",

@@ -5,6 +5,8 @@
 
 #include "runtime/appearance/appearance_gpu.h"
 #include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush::shared {
@@ -33,6 +35,7 @@ constexpr std::array<Setting, 4> settings = {{
      .highest = 100,
      .default_number = 0.06},
 }};
+using Own = OwnSetting<wrinkles_effect, settings>;
 
 bool any_wrinkle(const CharacterState& character) {
     return std::ranges::any_of(character.pose.wrinkles, [](float weight) { return weight != 0; });
@@ -44,11 +47,11 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
                 .reason = "the face has no wrinkle maps (blush bake wrinkles makes them)",
                 .can_be_forced = false};
     }
-    if (is_hidden(character.settings, "wrinkles")) {
+    if (character.settings.choice(Own("shown")) == 1) {
         return {.on = false, .reason = "wrinkles.shown says no", .can_be_forced = false};
     }
     if (!any_wrinkle(character)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
-    if (character.skin.pixels_a_mm < character.settings.number("wrinkles", "least_pixels_a_mm")) {
+    if (character.skin.pixels_a_mm < character.settings.number(Own("least_pixels_a_mm"))) {
         return {.on = false,
                 .reason = "the face is so small on the screen that a fold is narrower than a pixel",
                 .omission = Omission::bounded,
@@ -68,7 +71,7 @@ constexpr std::array<HardCase, 1> hard_cases = {{
     {"face without maps", "is drawn as it is", [](Face& /*face*/) {}},
 }};
 
-bool of_differences(const CharacterState& character) { return character.settings.choice("wrinkles", "encoding") == 1; }
+bool of_differences(const CharacterState& character) { return character.settings.choice(Own("encoding")) == 1; }
 
 std::uint32_t variant(const FrameState& /*frame*/, const CharacterState& character) {
     return of_differences(character) ? 1 : 0;
@@ -109,6 +112,9 @@ constexpr ShadingPart shading = {
 };
 
 }  // namespace
+
+constinit const SettingId wrinkles_encoding = Own("encoding");
+constinit const SettingId wrinkles_storage = Own("storage");
 
 const Effect wrinkles_effect = {
     .name = "wrinkles",

@@ -47,8 +47,6 @@ struct Need {
 /// A setting that takes an effect out of every frame.
 inline constexpr std::array<std::string_view, 2> yes_or_no = {"yes", "no"};
 constexpr Setting shown_setting(std::string_view meaning) { return {"shown", meaning, yes_or_no}; }
-/// Whether `shown` of that effect says no.
-bool is_hidden(const EffectSettings& settings, std::string_view effect);
 
 struct Effect {
     std::string_view name;

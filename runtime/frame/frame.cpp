@@ -387,10 +387,6 @@ ResourceId FrameState::target(const Effect& effect, std::size_t k) const {
     return first[static_cast<std::ptrdiff_t>(k)].id;
 }
 
-bool is_hidden(const EffectSettings& settings, std::string_view effect) {
-    return settings.choice(effect, "shown") == 1;
-}
-
 void FrameState::drew(CharacterState& character, std::uint32_t triangles) {
     character.report->triangles_drawn += triangles;
     ++character.report->draws;

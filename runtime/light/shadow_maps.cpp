@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/effects/shared_settings.h"
+
 namespace blush {
 namespace {
 
 /// Side of a map as the settings want it; smaller where so many maps would not fit.
 std::uint32_t map_side(const FrameState& frame, std::size_t count) {
-    std::uint32_t side = 512U << frame.scene->settings.choice("shadows", "size");
+    std::uint32_t side = 512U << frame.scene->settings.choice(shadows_size);
     const auto largest = static_cast<std::uint64_t>(frame.device.info().largest_texture_side_texels);
     constexpr std::uint32_t least_side = 64;
     const auto fits = [&](std::uint64_t s) {
@@ -59,8 +61,8 @@ bool casts_into(const LightSource& light, const CharacterState& caster, const Ch
 void place_shadow_maps(FrameState& frame) {
     auto& maps = frame.scene->own<ShadowMaps>();
     maps.maps.clear();
-    const bool off = frame.scene->settings.choice("shadows", "method") == 1;
-    const bool sharp = frame.scene->settings.choice("shadows", "edges") == 1;
+    const bool off = frame.scene->settings.choice(shadows_method) == 1;
+    const bool sharp = frame.scene->settings.choice(shadows_edges) == 1;
     for (CharacterState* character : frame.characters) {
         if (off) continue;
         for (std::size_t k = 0; k < character->reaching.size(); ++k) {

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "runtime/effects/shared_settings.h"
 #include "runtime/gl/program.h"
 #include "shaders/embedded.h"
 #include "tests/gl_fixture.h"
@@ -143,6 +144,39 @@ TEST(Effects, AreNamedInTheirRoomsAlone) {
         }
     }
     EXPECT_GT(files, 60U);
+}
+
+TEST(EffectSettings, AreTheSameByNameAndByPlace) {
+    for (const Effect* effect : effects()) {
+        for (std::uint16_t s = 0; s < effect->settings.size(); ++s) {
+            const Setting& setting = effect->settings[s];
+            const std::string name = std::string(effect->name) + "." + std::string(setting.name);
+            EffectSettings settings;
+            const std::string value =
+                setting.choices.empty() ? std::to_string(setting.highest) : std::string(setting.choices.back());
+            ASSERT_TRUE(settings.set(name, value)) << name;
+            const SettingId id{effect, s};
+            EXPECT_EQ(settings.number(id), settings.number(effect->name, setting.name)) << name;
+            EXPECT_EQ(EffectSettings().number(id), EffectSettings().number(effect->name, setting.name)) << name;
+        }
+    }
+}
+
+TEST(EffectSettings, ThatOthersReadAreThoseOfTheirNames) {
+    for (const auto& [id, effect, setting] : {std::tuple(antialiasing_mode, "antialiasing", "mode"),
+                                              {supersampling_factor, "supersampling", "factor"},
+                                              {velocities_source, "velocities", "source"},
+                                              {shadows_method, "shadows", "method"},
+                                              {shadows_size, "shadows", "size"},
+                                              {shadows_edges, "shadows", "edges"},
+                                              {wrinkles_encoding, "wrinkles", "encoding"},
+                                              {wrinkles_storage, "wrinkles", "storage"},
+                                              {blood_colour, "blood", "colour"},
+                                              {blood_table_nodes, "blood", "table_nodes"}}) {
+        ASSERT_NE(id.effect, nullptr);
+        EXPECT_EQ(id.effect->name, effect);
+        EXPECT_EQ(id.effect->settings[id.place].name, setting);
+    }
 }
 
 TEST(EffectSettings, StartAtTheirDefaultsAndTakeEveryChoice) {
