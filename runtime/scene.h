@@ -46,8 +46,9 @@ struct WarmUpProgress {
 
 /// Shaders for a host's own program (docs/integrating.md).
 struct ShadingText {
-    std::string vertex;    ///< whole
-    std::string fragment;  ///< all but outputs and main(), which calls model_surface(interpolants()) and model_lighting()
+    std::string vertex;  ///< whole
+    std::string
+        fragment;  ///< all but outputs and main(), which calls model_surface(interpolants()) and model_lighting()
 };
 
 class Scene {
@@ -85,8 +86,8 @@ public:
     /// change where the effects that are on do. Status: the character is not of the scene, or has no such primitive.
     Result<ShadingText> shading_text(View& view, const Character& character, std::size_t primitive);
     /// Binds what a program of shading_text() reads, and leaves it bound: the vertex array, uniform blocks and storage
-    /// blocks, textures with their samplers from unit 0 on. Draw with glDrawElements and the primitive's range of 32-bit
-    /// indices. Error as of shading_text().
+    /// blocks, textures with their samplers from unit 0 on. Draw with glDrawElements and the primitive's range of
+    /// 32-bit indices. Error as of shading_text().
     Status bind_shading(View& view, const Character& character, std::size_t primitive);
 
     /// The report of a view's last frame.

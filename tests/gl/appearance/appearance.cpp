@@ -8,8 +8,8 @@
 
 #include "rig/blood/colour_difference.h"
 #include "runtime/appearance/appearance_gpu.h"
-#include "runtime/draw/shading.h"
 #include "runtime/appearance/signed_texture.h"
+#include "runtime/draw/shading.h"
 #include "runtime/files/appearance_file.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/measure/appearance_probe.h"
