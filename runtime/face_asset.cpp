@@ -55,7 +55,8 @@ AssetState::AssetState(Face loaded, Rig its) : face(std::move(loaded)), rig(std:
     rest_placement = blush::rest_placement(face);
     std::vector<glm::mat4> joints(joint_count);
     skinned_from_meshes(face, rest_placement, skinned_origin, joints);
-    rest_skinned_from_mesh.assign(joints.begin(), joints.end());
+    // One by one: a copy of the library's between two types of GLM would be shared with the host.
+    for (const glm::mat4& joint : joints) rest_skinned_from_mesh.emplace_back(joint);
     sockets = find_sockets(face, head_and_eyes, eye_sockets, material_kind);
 }
 
