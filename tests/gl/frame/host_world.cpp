@@ -265,6 +265,37 @@ TEST_F(HostWorld, VelocitiesTellHowTheCharactersMovedAndSpareTheRest) {
     }
 }
 
+TEST_F(HostWorld, WhatTheHostHidesHasNoVelocity) {
+    const gl::Texture color = gl::make_texture(GL_TEXTURE_2D), depth = gl::make_texture(GL_TEXTURE_2D);
+    glTextureStorage2D(color.name(), 1, GL_RGBA8, side, side);
+    glTextureStorage2D(depth.name(), 1, GL_DEPTH_COMPONENT24, side, side);
+    const gl::Framebuffer host = gl::make_framebuffer();
+    glNamedFramebufferTexture(host.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
+    glNamedFramebufferTexture(host.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+    std::vector<float> wall(std::size_t{side} * side);
+    for (std::size_t p = 0; p < wall.size(); ++p) wall[p] = p % side < side / 2 ? 0.0F : 1.0F;
+    glTextureSubImage2D(depth.name(), 0, 0, 0, side, side, GL_DEPTH_COMPONENT, GL_FLOAT, wall.data());
+    const VelocityTarget target;
+    ViewFrame frame = this->frame();
+    frame.framebuffer = host.name();
+    frame.backdrop = Backdrop::keep;
+    frame.host_depth = HostDepth::read;
+    frame.velocity_framebuffer = target.name();
+    for (const double x : {0.0, 0.05}) {
+        character_.place(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, 0)));
+        EXPECT_FALSE(scene_.draw(view_, frame).failure);
+    }
+    const std::vector<glm::vec2> values = target.read();
+    std::size_t seen = 0;
+    for (std::size_t p = 0; p < values.size(); ++p) {
+        if (values[p] == glm::vec2(9)) continue;
+        ASSERT_GE(p % side, side / 2) << "behind the wall";
+        EXPECT_GT(values[p].x, 0);
+        ++seen;
+    }
+    EXPECT_GT(seen, 200U);
+}
+
 TEST_F(HostWorld, OneKeptStateServesSeveralDraws) {
     const std::vector<std::uint8_t> alone = drawn();
     glEnable(GL_CULL_FACE);

@@ -341,6 +341,106 @@ TEST_F(Pins, ReachDepthShadowsVelocitiesAndWhatIsReadBack) {
     EXPECT_EQ(depth(), free_depth);
 }
 
+/// A host's body in plain GL: a collar around the border, drawn into a depth buffer.
+class Collar {
+public:
+    Collar() {
+        const char* text = R"(#version 450 core
+layout(location = 0) in vec3 position;
+layout(location = 0) uniform mat4 clip_from_world;
+out gl_PerVertex { vec4 gl_Position; };
+void main() { gl_Position = clip_from_world * vec4(position, 1.0); }
+)";
+        program_ = glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &text);
+        glCreateProgramPipelines(1, &pipeline_);
+        glUseProgramStages(pipeline_, GL_VERTEX_SHADER_BIT, program_);
+    }
+    ~Collar() {
+        glDeleteProgramPipelines(1, &pipeline_);
+        glDeleteProgram(program_);
+    }
+    Collar(const Collar&) = delete;
+    Collar& operator=(const Collar&) = delete;
+
+    void draw(const std::vector<glm::vec3>& border, const glm::mat4& clip_from_world, GLuint framebuffer) const {
+        std::vector<glm::vec3> strip;
+        for (std::size_t i = 0; i <= border.size(); ++i) {
+            const glm::vec3& inner = border[i % border.size()];
+            strip.push_back(inner);
+            strip.push_back(inner + 0.5F * glm::normalize(glm::vec3(inner.x, inner.y, 0)));
+        }
+        const gl::Buffer vertices = gl::make_buffer<glm::vec3>(strip);
+        const gl::VertexArray array = gl::make_vertex_array();
+        glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, sizeof(glm::vec3));
+        glEnableVertexArrayAttrib(array.name(), 0);
+        glBindVertexArray(array.name());
+        glUseProgram(0);
+        glBindProgramPipeline(pipeline_);
+        glProgramUniformMatrix4fv(program_, 0, 1, GL_FALSE, &clip_from_world[0].x);
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        glViewport(0, 0, side, side);
+        glEnable(GL_DEPTH_TEST);
+        glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));
+        glDisable(GL_DEPTH_TEST);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glBindProgramPipeline(0);
+        glBindVertexArray(0);
+    }
+
+private:
+    GLuint program_ = 0, pipeline_ = 0;
+};
+
+TEST_F(Pins, NothingShowsThroughTheSeamInAThousandPoses) {
+    Stage stage = stage_of(face(), 0.5);
+    const gl::Texture depth = gl::make_texture(GL_TEXTURE_2D);
+    glTextureStorage2D(depth.name(), 1, GL_DEPTH_COMPONENT32F, side, side);
+    const gl::Framebuffer framebuffer = gl::make_framebuffer();
+    glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+    glNamedFramebufferDrawBuffer(framebuffer.name(), GL_NONE);
+    const Camera camera = stage.asset.framing(1).camera(1);
+    DepthFrame frame;
+    frame.clip_from_world = glm::dmat4(camera.clip_from_view) * camera.view_from_world;
+    frame.width = frame.height = side;
+    frame.framebuffer = framebuffer.name();
+    const glm::mat4 clip(frame.clip_from_world);
+    const Collar collar;
+    test::Random random(31);
+    std::vector<float> values(std::size_t{side} * side);
+    /// Pixels of the seam through which nothing is seen but the background.
+    const auto holes = [&](const std::vector<glm::vec3>& border) {
+        const float far_depth = 1;
+        glClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, &far_depth);
+        stage.scene.draw_depth(frame);
+        collar.draw(border, clip, framebuffer.name());
+        glGetTextureImage(depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                          static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+        std::size_t open = 0;
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            for (const float t : {0.0F, 0.25F, 0.5F, 0.75F}) {
+                const glm::vec4 at = clip * glm::vec4(glm::mix(border[i], border[(i + 1) % border.size()], t), 1);
+                const glm::vec2 pixel = (glm::vec2(at) / at.w * 0.5F + 0.5F) * static_cast<float>(side);
+                const auto x = static_cast<std::size_t>(std::clamp(pixel.x, 0.0F, static_cast<float>(side - 1)));
+                const auto y = static_cast<std::size_t>(std::clamp(pixel.y, 0.0F, static_cast<float>(side - 1)));
+                open += values[y * side + x] == 1 ? 1U : 0U;
+            }
+        }
+        return open;
+    };
+    std::size_t without_pins = 0;
+    for (int pose = 0; pose < 1000; ++pose) {
+        for (float& target : targets(stage.character)) target = random.between(0, 1);
+        const Body body = body_of(stage.asset.face(), stage.border, random, 0.04F);
+        ASSERT_TRUE(stage.character.move_pins(body.positions, body.normals));
+        ASSERT_EQ(holes(body.positions), 0U) << "pose " << pose;
+        if (pose % 100 != 0) continue;
+        ASSERT_TRUE(stage.character.pin({}, 0));
+        without_pins += holes(body.positions);
+        ASSERT_TRUE(stage.character.pin(stage.border, width_mm(stage.asset, 0.5)));
+    }
+    EXPECT_GT(without_pins, 20U) << "the seam would be closed anyway";
+}
+
 TEST_F(Pins, ThatCannotBeAreRefusedInOneSentence) {
     const FaceAsset asset = *FaceAsset::create(face());
     Character character = *Character::create(device_, asset);
