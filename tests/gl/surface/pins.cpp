@@ -363,16 +363,19 @@ void main() { gl_Position = clip_from_world * vec4(position, 1.0); }
     Collar& operator=(const Collar&) = delete;
 
     void draw(const std::vector<glm::vec3>& border, const glm::mat4& clip_from_world, GLuint framebuffer) const {
-        std::vector<glm::vec3> strip;
-        for (std::size_t i = 0; i <= border.size(); ++i) {
-            const glm::vec3& inner = border[i % border.size()];
-            strip.push_back(inner);
-            strip.push_back(inner + 0.5F * glm::normalize(glm::vec3(inner.x, inner.y, 0)));
+        const auto outer = [](const glm::vec3& inner) {
+            return inner + 0.5F * glm::normalize(glm::vec3(inner.x, inner.y, 0));
+        };
+        std::vector<glm::vec3> triangles;
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            const glm::vec3 &a = border[i], &b = border[(i + 1) % border.size()];
+            triangles.insert(triangles.end(), {a, b, outer(a), b, outer(b), outer(a)});
         }
-        const gl::Buffer vertices = gl::make_buffer<glm::vec3>(strip);
+        const gl::Buffer vertices = gl::make_buffer<glm::vec3>(triangles);
         const gl::VertexArray array = gl::make_vertex_array();
         glVertexArrayVertexBuffer(array.name(), 0, vertices.name(), 0, sizeof(glm::vec3));
         glEnableVertexArrayAttrib(array.name(), 0);
+        glVertexArrayAttribFormat(array.name(), 0, 3, GL_FLOAT, GL_FALSE, 0);
         glBindVertexArray(array.name());
         glUseProgram(0);
         glBindProgramPipeline(pipeline_);
@@ -380,7 +383,7 @@ void main() { gl_Position = clip_from_world * vec4(position, 1.0); }
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         glViewport(0, 0, side, side);
         glEnable(GL_DEPTH_TEST);
-        glDrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<GLsizei>(strip.size()));
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
         glDisable(GL_DEPTH_TEST);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glBindProgramPipeline(0);
@@ -392,7 +395,9 @@ private:
 };
 
 TEST_F(Pins, NothingShowsThroughTheSeamInAThousandPoses) {
-    Stage stage = stage_of(face(), 0.5);
+    Face both_sides = face();  // a border that wobbles may turn a triangle away
+    for (Material& material : both_sides.materials) material.double_sided = true;
+    Stage stage = stage_of(std::move(both_sides), 0.5);
     const gl::Texture depth = gl::make_texture(GL_TEXTURE_2D);
     glTextureStorage2D(depth.name(), 1, GL_DEPTH_COMPONENT32F, side, side);
     const gl::Framebuffer framebuffer = gl::make_framebuffer();
@@ -430,7 +435,7 @@ TEST_F(Pins, NothingShowsThroughTheSeamInAThousandPoses) {
     std::size_t without_pins = 0;
     for (int pose = 0; pose < 1000; ++pose) {
         for (float& target : targets(stage.character)) target = random.between(0, 1);
-        const Body body = body_of(stage.asset.face(), stage.border, random, 0.04F);
+        const Body body = body_of(stage.asset.face(), stage.border, random, 0.03F);
         ASSERT_TRUE(stage.character.move_pins(body.positions, body.normals));
         ASSERT_EQ(holes(body.positions), 0U) << "pose " << pose;
         if (pose % 100 != 0) continue;
