@@ -17,7 +17,7 @@ foreach(file environment wrinkle_bake gltf/missing_attributes)
 endforeach()
 
 if(BLUSH_PRECOMPILED_HEADERS)
-  foreach(target blush_rig blush_load blush_runtime blush_script blush_make_face blush)
+  foreach(target blush_rig blush_load blush_runtime blush_measure blush_script blush_make_face blush)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory>
       <optional> <span> <string> <string_view> <variant> <vector> <glm/glm.hpp>)
   endforeach()

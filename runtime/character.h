@@ -6,11 +6,14 @@
 #include <span>
 #include <string_view>
 
+#include "rig/head/sockets.h"
 #include "rig/motion/blood_flow.h"
 #include "rig/result.h"
 #include "rig/vectors.h"
 #include "runtime/device.h"
 #include "runtime/face_asset.h"
+#include "runtime/surface.h"
+#include "runtime/surface_point.h"
 
 namespace blush {
 
@@ -50,6 +53,32 @@ public:
     /// skins one after the other in file order, in the file's space. None: the face's own nodes again. Status: another
     /// number of joints than the face has.
     Status set_joints(std::span<const Mat4> skinned_from_mesh);
+
+    /// World matrix of a socket, as controls, nodes, joints and place stand now, whatever was drawn last. At rest it is
+    /// placed() moved to where the part turns (the jaw: to the middle of the chin), with the file's axes and units;
+    /// from there it goes as rigidly as its source does (rig/head/sockets.h says which). Nothing: the face has no such
+    /// part, or a node of it is flat. Needs no GL; allocates in the first call only.
+    std::optional<DMat4> socket(Socket which) const;
+
+    /// The surface at a point of this asset, as controls, nodes, joints, settings and place stand now, whatever was
+    /// drawn last: what the GPU deforms, computed for the point's three corners alone. Pins are left out. A mesh that
+    /// several nodes draw stands where the first of them does. Nothing: the point is of another asset, or was moved
+    /// from. Needs no GL; allocates in the first call only.
+    std::optional<SurfaceFrame> at(const SurfacePoint& point) const;
+
+    /// Pins vertices of the surface to where the host says they are, after targets and joints: the border of a neck to
+    /// that of a body (FaceAsset::neck_border()). What lies within `width_mm` millimetres of them at rest, along the
+    /// surface, follows them, less with distance; what lies farther keeps its bits. `vertices`: one for each place; its
+    /// copies across seams go with it. None: nothing is pinned any more. Nothing is pinned until move_pins(). Status: a
+    /// vertex that does not exist, or a width that is negative or not finite.
+    Status pin(std::span<const std::uint32_t> vertices, double width_mm);
+    /// Where the pinned vertices are from now on: a position and a normal for each, in the file's space, like joints. A
+    /// vertex whose position or normal is not finite, or whose normal has no length, is not pinned for that long.
+    /// Status: another number than are pinned.
+    Status move_pins(std::span<const Vec3> positions, std::span<const Vec3> normals);
+
+    /// The deformed surface on the GPU, for a host that draws it itself: as the last draw or Scene::deform() left it.
+    PublishedSurface surface() const;
 
     /// Status: no such effect, setting or choice, or one that another owner has (runtime/settings.h).
     Status set(std::string_view setting, std::string_view choice);

@@ -3,10 +3,12 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "runtime/frame/device_state.h"
+#include "runtime/gl/state_guard.h"
 
 namespace blush {
 
@@ -72,6 +74,8 @@ Status read_info(DeviceInfo& info) {
     }
     glGetInternalformativ(GL_RENDERBUFFER, GL_RGBA16F, GL_SAMPLES, 1, &info.largest_sample_count);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info.largest_texture_side_texels);
+    glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &info.texture_units);
+    info.texture_units = std::min(info.texture_units, static_cast<int>(gl::StateGuard::texture_units));
     GLint64 block_bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block_bytes);
     info.largest_storage_block_bytes = static_cast<std::uint64_t>(block_bytes);
@@ -129,5 +133,22 @@ const DeviceInfo& Device::info() const { return state_->info; }
 void Device::make_current() const { state_->enter(); }
 
 std::span<const std::string> Device::debug_messages() const { return state_->messages; }
+
+struct HostState::Kept {
+    explicit Kept(Device of) : device(std::move(of)) { ++device.state().kept_states; }
+    ~Kept() { --device.state().kept_states; }
+    Kept(const Kept&) = delete;
+    Kept& operator=(const Kept&) = delete;
+
+    Device device;
+    gl::DrawScope scope{device.state().kept_states == 0};
+};
+
+HostState::HostState(const Device& device) {
+    device.make_current();
+    kept_ = std::make_unique<Kept>(device);
+}
+
+HostState::~HostState() = default;
 
 }  // namespace blush

@@ -16,6 +16,7 @@ struct DeviceInfo {
     std::string renderer, version;
     int largest_sample_count = 1;  ///< of a multisampled floating-point colour target
     int largest_texture_side_texels = 0;
+    int texture_units = 16;  ///< of a fragment shader
     std::uint64_t largest_storage_block_bytes = 0;
 };
 
@@ -47,6 +48,21 @@ public:
 private:
     explicit Device(std::shared_ptr<DeviceState> state);
     std::shared_ptr<DeviceState> state_;
+};
+
+/// Keeps the GL state of the host while it lives, and restores it at the end: draws, depth passes and the like within
+/// its scope neither save nor restore anything themselves. Nobody else may touch the state in between. The device's
+/// context is current when it begins and when it ends.
+class HostState {
+public:
+    explicit HostState(const Device& device);
+    ~HostState();
+    HostState(const HostState&) = delete;
+    HostState& operator=(const HostState&) = delete;
+
+private:
+    struct Kept;
+    std::unique_ptr<Kept> kept_;
 };
 
 }  // namespace blush

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "rig/far_vertices.h"
 #include "runtime/files/face_file.h"
 #include "runtime/files/occlusion_file.h"
 #include "runtime/files/rig_description_file.h"
@@ -51,6 +52,12 @@ AssetState::AssetState(Face loaded, Rig its) : face(std::move(loaded)), rig(std:
     has_triangles =
         std::ranges::any_of(face.primitives, [](const Primitive& primitive) { return primitive.index_count >= 3; });
     if (!bounds.empty()) skinned_origin = glm::dvec3(bounds.centre());
+    rest_placement = blush::rest_placement(face);
+    std::vector<glm::mat4> joints(joint_count);
+    skinned_from_meshes(face, rest_placement, skinned_origin, joints);
+    // One by one: a copy of the library's between two types of GLM would be shared with the host.
+    for (const glm::mat4& joint : joints) rest_skinned_from_mesh.emplace_back(joint);
+    sockets = find_sockets(face, head_and_eyes, eye_sockets, material_kind);
 }
 
 FaceAsset::FaceAsset(std::shared_ptr<const AssetState> state) : state_(std::move(state)) {}
@@ -78,10 +85,18 @@ Result<FaceAsset> FaceAsset::create(Face face, const std::optional<RigDescriptio
     if (!fits(occlusion, face)) {
         return Error{face.path + ": its occlusion is of another face, with another number of vertices"};
     }
+    const double step = float_step(face);
+    const Recentred recentred = recentre(face);
     Rig rig = description ? Rig(face, *description) : Rig(face);
     auto state = std::make_shared<AssetState>(std::move(face), std::move(rig));
     state->appearance = std::move(appearance);
     state->occlusion = std::move(occlusion);
+    state->float_step_mm = step * state->scale.millimetres_a_unit;
+    state->mesh_origin = recentred.mesh_origin;
+    for (std::size_t s = 0; s < recentred.skin_origin.size(); ++s) {
+        const std::size_t joints = state->face.skins[s].joints.size();
+        state->joint_mesh_origin.insert(state->joint_mesh_origin.end(), joints, glm::dvec3(recentred.skin_origin[s]));
+    }
     return FaceAsset(std::move(state));
 }
 
@@ -101,6 +116,7 @@ FaceAsset FaceAsset::with_occlusion(std::optional<OcclusionSet> occlusion) const
 const Face& FaceAsset::face() const { return state_->face; }
 const Rig& FaceAsset::rig() const { return state_->rig; }
 const FaceAppearance& FaceAsset::appearance() const { return state_->appearance; }
+double FaceAsset::float_step_mm() const { return state_->float_step_mm; }
 OrbitCamera FaceAsset::framing(float aspect) const { return frame_head(state_->bounds, state_->scale, aspect); }
 
 }  // namespace blush

@@ -8,10 +8,23 @@
 #include "rig/face.h"
 #include "rig/light/spherical_harmonics.h"
 #include "rig/vectors.h"
+#include "runtime/depth_convention.h"
 
 namespace blush {
 
 enum class LightKind : std::uint8_t { directional, point, spot };
+
+/// A shadow map of the host's own, which hides a light from the characters as it does from the host's world.
+struct HostShadow {
+    /// GL name of a 2D depth texture of one sample, alive while drawing, its base level the map; 0: none. What it is
+    /// sampled with does not matter.
+    std::uint32_t depth_texture = 0;
+    DMat4 clip_from_world{1};
+    DepthConvention depth_convention;  ///< of clip_from_world and of the texture
+    /// How far off its surface a character looks, beyond a texel of the map, world units: with the characters
+    /// themselves in the map, some millimetres.
+    float bias = 0;
+};
 
 struct LightSource {
     LightKind kind = LightKind::directional;
@@ -33,6 +46,8 @@ struct LightSource {
     /// is seen under (below 0.5). 0 or more; 0: edges as sharp as the shadow
     /// map's.
     float size = 0;
+    HostShadow
+        host_shadow;  ///< besides the shadows that characters cast; of the four lights a character that come first
 };
 
 /// A radiance map in equal longitudes and latitudes (rig/light/spherical_harmonics.h), prepared once.
@@ -50,12 +65,22 @@ struct Environment {
 /// Prepares a radiance map. What is not finite or is below 0 counts as 0. Error: an image without pixels.
 Result<std::shared_ptr<const Environment>> make_environment(const Image& image);
 
+/// Light from all around at one place, such as a host's light probe.
+struct LightProbe {
+    DVec3 position_world{0};
+    double reach = 1;        ///< world units, above 0: from here on it lights nothing
+    Sh9Color radiance_sh{};  ///< of the radiance that arrives
+};
+
 struct Lighting {
     /// As many as a scene has. One that is dark, not finite or without a direction is left out; each character is lit
     /// by those that reach it (CharacterReport::lights).
     std::vector<LightSource> lights;
     Vec3 sky_radiance_linear{0}, ground_radiance_linear{0};  ///< ambient; not used with an environment
     std::shared_ptr<const Environment> environment;
+    /// As many as a scene has. Each character is lit by those that reach its middle, the nearer the more; what share
+    /// they leave is the environment's, or sky's and ground's. One that is not finite or has no reach is left out.
+    std::vector<LightProbe> probes;
     DVec3 orbit_centre_world{0};
     float environment_factor = 1, environment_turn_radians = 0;
 };

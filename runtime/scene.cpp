@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "runtime/antialias/last_frame.h"
 #include "runtime/draw/draw_casters.h"
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/warm_up.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/light/shadow_maps.h"
 
@@ -71,9 +73,9 @@ void Scene::draw(std::span<const ViewInFrame> views) {
         return;
     }
     state_->device.make_current();
-    const gl::StateGuard guard;
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
     begin_scene_frame(*state_);
-    bool temporal = false;
+    bool compared = false;
     for (const ViewInFrame& each : views) {
         FrameState& view = each.view.state();
         if (!has_pixels(each.frame)) {
@@ -81,9 +83,18 @@ void Scene::draw(std::span<const ViewInFrame> views) {
             continue;
         }
         draw_view(view, *state_, each.frame);
-        temporal |= view.sampling.temporal;
+        compared |= compares_frames(view, each.frame);
     }
-    end_scene_frame(*state_, temporal);
+    end_scene_frame(*state_, compared);
+}
+
+WarmUpProgress Scene::warm_up(View& view, const ViewFrame& like, std::uint32_t most_programs) {
+    state_->device.make_current();
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
+    // What draw_depth() needs, whether or not a light of the scene casts shadows.
+    require_hair_cores(own_view(*state_), SeenFrom::light);
+    gl::require_program(state_->own<ShadowMaps>().program, {"light/shadow.vert"});
+    return blush::warm_up(view.state(), *state_, like, std::max(1U, most_programs));
 }
 
 const FrameReport& Scene::report(const View& view) { return view.state().report; }
@@ -91,7 +102,7 @@ const FrameReport& Scene::report(const View& view) { return view.state().report;
 void Scene::draw_depth(const DepthFrame& depth) {
     if (depth.width == 0 || depth.height == 0) return;
     state_->device.make_current();
-    const gl::StateGuard guard;
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
     FrameState& frame = own_view(*state_);
     deform_only(frame, *state_);
     auto& maps = state_->own<ShadowMaps>();
@@ -105,16 +116,24 @@ void Scene::draw_depth(const DepthFrame& depth) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(depth.depth_convention.reversed ? GL_GREATER : GL_LESS);
     forget_program(frame);
-    for (const Casters casters : {Casters::solid, Casters::hair}) {
+    for (const Casters casters : all_casters) {
         for (CharacterState* character : state_->characters) {
             draw_casters(frame, *character, casters, maps.program, depth.clip_from_world);
         }
     }
 }
 
-Scene::Surface Scene::read_deformed(const Character& character) {
+const FrameReport& Scene::deform() {
     state_->device.make_current();
     const gl::StateGuard guard;
+    FrameState& frame = own_view(*state_);
+    deform_only(frame, *state_);
+    return frame.report;
+}
+
+Scene::Surface Scene::read_deformed(const Character& character) {
+    state_->device.make_current();
+    const gl::DrawScope guard(state_->device.state().kept_states == 0);
     deform_only(own_view(*state_), *state_);
     const CharacterState& state = character.state();
     const std::size_t count = state.face.positions.size();
@@ -122,10 +141,18 @@ Scene::Surface Scene::read_deformed(const Character& character) {
     const auto read = [](const gl::Buffer& buffer, auto& out) {
         glGetNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(out.size() * sizeof(out[0])), out.data());
     };
-    const SurfaceBuffers& buffers = state.morphed();
+    // Pins come after joints: only without any is the pinned surface still in the mesh's space.
+    const bool pinned = state.facts.pinned && !state.facts.has_joints && state.surface != nullptr;
+    const SurfaceBuffers& buffers = pinned ? *state.surface : state.morphed();
     read(buffers.positions, surface.positions);
     read(buffers.normals, surface.normals);
     read(buffers.tangents, surface.tangents);
+    for (const Primitive& primitive : state.face.primitives) {
+        const glm::vec3 origin = state.facts_of_face.mesh_origin[primitive.mesh];
+        if (origin == glm::vec3(0)) continue;
+        for (std::uint32_t v = 0; v < primitive.vertex_count; ++v)
+            surface.positions[primitive.first_vertex + v] += origin;
+    }
     return surface;
 }
 

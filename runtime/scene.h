@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,21 @@ struct DepthFrame {
     std::uint32_t framebuffer = 0;        ///< GL name; its depth is tested and written, nothing else
 };
 
+/// How far warm_up() has come.
+struct WarmUpProgress {
+    bool done = false;
+    float share = 0;                      ///< of the situations that it goes through
+    std::uint32_t programs_compiled = 0;  ///< since it began
+    std::optional<std::string> failure;   ///< as FrameReport::failure; it ends with one
+};
+
+/// Shaders for a host's own program (docs/integrating.md).
+struct ShadingText {
+    std::string vertex;  ///< whole
+    std::string
+        fragment;  ///< all but outputs and main(), which calls model_surface(interpolants()) and model_lighting()
+};
+
 class Scene {
 public:
     static Result<Scene> create(const Device& device);
@@ -55,6 +71,25 @@ public:
     const FrameReport& draw(View& view, const ViewFrame& frame);
     /// Several views of one frame: surfaces are deformed and shadow maps drawn once for all of them.
     void draw(std::span<const ViewInFrame> views);
+    /// Compiles ahead what frames of this scene can come to need, so that none of them does: for its characters, its
+    /// lighting and the settings as they are, any pose, distance and camera. `like`: output, backdrop and the other
+    /// ways of the frames to come; its camera and framebuffer do not matter. One call compiles `most_programs` at most;
+    /// call it until it is done, between frames or before the first. Controls and poses stay; the next frame of a
+    /// temporal mode stands alone. Restores every GL state that it touches.
+    WarmUpProgress warm_up(View& view, const ViewFrame& like, std::uint32_t most_programs = 1);
+
+    /// For a host that shades the characters with programs of its own: makes all that shading reads (surfaces, shadow
+    /// maps, blood, blocks of numbers) for a view, and draws no picture. It stands until the scene is next drawn,
+    /// deformed or prepared. Restores every GL state that it touched.
+    const FrameReport& prepare(View& view, const ViewFrame& frame);
+    /// The shaders of one primitive, as prepare() has found its effects: Character::surface().primitives by index. They
+    /// change where the effects that are on do. Status: the character is not of the scene, or has no such primitive.
+    Result<ShadingText> shading_text(View& view, const Character& character, std::size_t primitive);
+    /// Binds what a program of shading_text() reads, and leaves it bound: the vertex array, uniform blocks and storage
+    /// blocks, textures with their samplers from unit 0 on. Draw with glDrawElements and the primitive's range of
+    /// 32-bit indices. Error as of shading_text().
+    Status bind_shading(View& view, const Character& character, std::size_t primitive);
+
     /// The report of a view's last frame.
     static const FrameReport& report(const View& view);
 
@@ -62,8 +97,13 @@ public:
     /// every GL state that it touched.
     void draw_depth(const DepthFrame& frame);
 
+    /// Makes the surfaces of all characters, as the controls stand now, and draws nothing: for a host that draws
+    /// Character::surface() itself. No frame of its own: velocities do not see it. Restores every GL state that it
+    /// touched. Report: of this alone, until the next deform() or draw_depth().
+    const FrameReport& deform();
+
     /// Deforms (on the GPU, without drawing) and reads back: positions, normals and tangents of every vertex, in the
-    /// mesh's space.
+    /// mesh's space, as the file has it: before joints, and, of a face without joints, with pins.
     struct Surface {
         std::vector<Vec3> positions, normals;
         std::vector<Vec4> tangents;

@@ -128,6 +128,18 @@ double EffectSettings::value(std::string_view effect_name, std::string_view sett
     return found;
 }
 
+double EffectSettings::number(SettingId setting) const {
+    std::size_t first = 0;
+    for (const Effect* effect : effects()) {
+        if (effect == setting.effect) return values_[first + setting.place];
+        first += effect->settings.size();
+    }
+    assert(false && "EffectSettings: the effect is not registered");
+    return 0;
+}
+
+std::uint8_t EffectSettings::choice(SettingId setting) const { return static_cast<std::uint8_t>(number(setting)); }
+
 std::uint8_t EffectSettings::choice(std::string_view effect, std::string_view setting) const {
     return static_cast<std::uint8_t>(value(effect, setting));
 }

@@ -14,6 +14,14 @@ namespace blush {
 enum class SettingOwner : std::uint8_t { character, scene, view };
 std::string_view to_string(SettingOwner owner);
 
+struct Effect;
+
+/// One setting, found when compiled: its effect, and its place among that effect's.
+struct SettingId {
+    const Effect* effect = nullptr;
+    std::uint16_t place = 0;
+};
+
 class EffectSettings {
 public:
     EffectSettings();  ///< every setting at its default
@@ -25,10 +33,14 @@ public:
     Status set(std::string_view setting, std::string_view value, SettingOwner owner);
     /// Error: no such setting.
     static Result<SettingOwner> owner_of(std::string_view setting);
-    /// Index of the choice made. The setting must exist.
+    /// Index of the choice made. The setting must exist; its effect must be registered.
+    std::uint8_t choice(SettingId setting) const;
+    /// Value of a setting that is a number, likewise.
+    double number(SettingId setting) const;
+
+    /// The same by name, for what is asked now and then: compares strings. The setting must exist.
     std::uint8_t choice(std::string_view effect, std::string_view setting) const;
 
-    /// Value of a setting that is a number. The setting must exist.
     double number(std::string_view effect, std::string_view setting) const;
 
     bool operator==(const EffectSettings&) const = default;

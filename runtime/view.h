@@ -7,6 +7,7 @@
 
 #include "rig/result.h"
 #include "rig/vectors.h"
+#include "runtime/depth_convention.h"
 #include "runtime/device.h"
 #include "runtime/lighting.h"
 
@@ -39,14 +40,6 @@ enum class HostDepth : std::uint8_t {
     read_and_write,  ///< and what the host draws later is hidden by them
 };
 
-/// How the host's projection and depth are meant, where not as GL's own.
-struct DepthConvention {
-    bool zero_to_one = false;  ///< clip z from 0 to w (glClipControl); else from -w to w
-    bool reversed = false;     ///< the near plane has depth 1, the far plane 0
-
-    bool operator==(const DepthConvention&) const = default;
-};
-
 struct ViewFrame {
     Camera camera;
     DepthConvention depth_convention;     ///< of camera.clip_from_view and of the framebuffer's depth
@@ -55,6 +48,11 @@ struct ViewFrame {
     std::uint32_t framebuffer = 0;        ///< GL name; 0: the default framebuffer
     Backdrop backdrop = Backdrop::color;
     HostDepth host_depth = HostDepth::none;
+    /// GL name of a framebuffer that gets, in the view's rectangle, how far what is seen of the characters has moved
+    /// since the frame before: to the first draw buffer, x and y in widths and heights of the view (rg16f or finer);
+    /// other pixels stay as they are, and so do all in the first frame after a cut. 0: none. Not the one that is drawn
+    /// to.
+    std::uint32_t velocity_framebuffer = 0;
     Output output = Output::display_srgb;
     float exposure = 1;  ///< factor on radiance before the filmic curve
     /// In place of the scene's for this view: alive while drawing. Null: the scene's.

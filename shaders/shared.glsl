@@ -5,6 +5,8 @@
 // Lights that reach one character, at most: the shader walks as many as there are. With 64 the block stays below the
 // 16 KiB that GL guarantees.
 #define BLUSH_MOST_LIGHTS 64
+// Shadow maps of the host's lights that one character is lit by, at most.
+#define BLUSH_MOST_HOST_SHADOWS 4
 // Taps of the separable diffusion kernel without its centre, at most.
 #define BLUSH_MOST_KERNEL_TAPS 32
 // Of the skin, at any depth: keeps a camera inside the skin finite. rig/light/scatter_image.h has the same.
@@ -31,7 +33,7 @@
 #define BLUSH_FRAME_BINDING 0
 #define BLUSH_DRAW_BINDING 1
 #define BLUSH_MATERIAL_BINDING 2
-#define BLUSH_APPEARANCE_BINDING 3
+#define BLUSH_EFFECTS_BINDING 3
 
 // Storage blocks of the deformation.
 #define BLUSH_FIRST_ENTRY_BINDING 0
@@ -53,6 +55,15 @@
 
 // Storage block of the joints.
 #define BLUSH_JOINTS_BINDING 0
+
+// Storage blocks of the pins, and the size of their work group.
+#define BLUSH_PIN_FROM_POSITIONS_BINDING 0
+#define BLUSH_PIN_FROM_NORMALS_BINDING 1
+#define BLUSH_PIN_TO_POSITIONS_BINDING 2
+#define BLUSH_PIN_TO_NORMALS_BINDING 3
+#define BLUSH_PIN_TO_TANGENTS_BINDING 4
+#define BLUSH_PINS_BINDING 5
+#define BLUSH_PIN_INVOCATIONS 64
 
 // Storage block of the diffusion of several characters' skins, and the characters that it tells apart: further ones take
 // their numbers anew from the first.
@@ -82,23 +93,7 @@
 #define BLUSH_JOINT_WEIGHTS_ATTRIBUTE 6
 #define BLUSH_LAST_POSITION_ATTRIBUTE 7
 
-// Texture units.
-#define BLUSH_BASE_COLOR_UNIT 0
-#define BLUSH_METALLIC_ROUGHNESS_UNIT 1
-#define BLUSH_NORMAL_MAP_UNIT 2
-#define BLUSH_OCCLUSION_UNIT 3
-#define BLUSH_EMISSIVE_UNIT 4
-#define BLUSH_BECKMANN_UNIT 5
-#define BLUSH_SPECULAR_ALBEDO_UNIT 9
-#define BLUSH_SPECULAR_UNIT 6
-#define BLUSH_SHADOW_UNIT 7
-#define BLUSH_ENVIRONMENT_UNIT 8
-#define BLUSH_WRINKLE_MAP_UNIT 10
-#define BLUSH_WRINKLE_MASKS_UNIT 11
-#define BLUSH_RESIDUAL_UNIT 12
-#define BLUSH_PIGMENT_UNIT 13
-#define BLUSH_BLOOD_CHANGE_UNIT 14
-#define BLUSH_SKIN_COLOR_UNIT 15
+// Texture units. Those of shading are given out program by program (runtime/draw/shading.h).
 #define BLUSH_SCENE_COLOR_UNIT 0
 // Of the antialiasing passes (runtime/antialias/).
 #define BLUSH_AA_COLOR_UNIT 0
@@ -134,12 +129,13 @@ struct Light {
     vec4 shadow;           // x: 1 with a shadow map, or -1; y: cosine where a spot begins to fade; z: texel at the map's depth 1
                            // (perspective) or anywhere, world units; w: 1 when the map is a perspective
     vec4 shadow_depth;     // x, y: near and far of the map, world units; z: size: radius of a light with a place, world
-                           // units, or tangent of half the angle of a directional one; w unused
+                           // units, or tangent of half the angle of a directional one; w: number of the host's shadow
+                           // map, from 1, or 0
     vec4 shadow_tile;      // x, y: lower left corner of the map in the texture of all maps, z: its side, texels; w unused
     mat4 shadow_from_world;  // clip space of the shadow map
 };
 
-// One character in one picture.
+// One character in one picture. What effects know of it stands in a block of theirs (EffectsBlock, runtime/draw/shading.h).
 BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     mat4 clip_from_world;
     vec4 camera_world;  // xyz: position; w unused
@@ -148,24 +144,9 @@ BLUSH_UNIFORM_BLOCK(FrameBlock, BLUSH_FRAME_BINDING) {
     vec4 ground_radiance_linear;  // ambient from below; w unused
     vec4 ambient_sh[9];           // rgb: radiance of white under the ambient light, by spherical harmonics of the normal;
                                   // w of the first three: radiance that comes from every side, red, green, blue
-    vec4 environment;             // x: factor on the environment map; y: its mip levels - 1; z: its turn about +Y
-    vec4 skin;                    // x: millimetres a world unit; y: share of the albedo before the diffusion
-                                  // z: roughness, w: intensity of the surface reflection
-    vec4 translucency;            // x: strength; y: mm that a point is drawn in along its normal; z: thickness in mm that
-                                  // nothing passes; w unused
-    vec4 profile[BLUSH_MOST_GAUSSIANS];  // rgb: weight of a Gaussian; w: -1 / (2 variance), 1/mm^2; 0: no such term
-    vec4 parts;                   // x: strength of the lids' shade on the eye; y: of the iris's depth
-                                  // z: of the darkness in the mouth; w: roughness of the eye's film of tears
-    vec4 mouth_front;             // xyz: a place on the plane before the teeth; w unused
-    vec4 mouth_forward;           // xyz: unit vector out of the mouth; w unused
-    vec4 eyes[2];                 // xyz: centre; w: radius, world units
-    mat4 world_from_lids;
-    ivec4 eye_data;               // x: 1 when the eyes are known; yz: vertices on the eyes' poles; w: 1 with lid_points
-    ivec4 lid_points[BLUSH_LID_POINTS];  // vertices: upper and lower lid of the first eye, of the second
+    float millimetres_a_unit;
+    float unused_0, unused_1, unused_2;
     ivec4 counts;                 // x: lights; y: number of the character, from 1; zw unused
-    ivec4 occlusion_poses;              // x: poses of the occlusion coefficients; y: vertices of each; z: 1 with light that
-                                  // surfaces send on; w unused
-    vec4 occlusion_weights[2];    // of those poses
     Light lights[BLUSH_MOST_LIGHTS];
 };
 
@@ -183,12 +164,4 @@ BLUSH_UNIFORM_BLOCK(MaterialBlock, BLUSH_MATERIAL_BINDING) {
     vec4 uv_rows[12];          // two rows of the 3x2 texture-coordinate transform of each of the six textures
     ivec4 uv_sets;             // texture-coordinate set of base colour, metallic-roughness, normal, occlusion
     ivec4 emissive_uv_set;     // x: of emissive; y: of specular; zw unused
-};
-
-BLUSH_UNIFORM_BLOCK(AppearanceBlock, BLUSH_APPEARANCE_BINDING) {
-    vec4 wrinkle_weights[BLUSH_MOST_WRINKLE_MASKS];  // of the zones, as the masks' channels hold them
-    vec4 wrinkle_range;       // x: derivative that the map's 1 stands for; yzw unused
-    vec4 wrinkle_part;        // xy: factor on texture coordinates, zw: what is added, for maps of a part of the layout
-    vec4 blood;               // x: factor on the hemoglobin of the whole face; y: largest hemoglobin; z: nodes of a side of the
-                              // colour table; w unused
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -65,6 +66,26 @@ void add_mesh(const Face& face, std::int32_t mesh_index, const glm::mat4& matrix
     }
 }
 
+/// Bounds in double precision: of a face that stands far out, floats would put a point that it turns about elsewhere.
+struct FineBounds {
+    glm::dvec3 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
+    void add(glm::dvec3 point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    glm::dvec3 centre() const { return 0.5 * low + 0.5 * high; }
+};
+
+void add_mesh(const Face& face, std::int32_t mesh_index, const glm::dmat4& matrix, FineBounds& bounds) {
+    const Mesh& mesh = face.meshes[static_cast<std::size_t>(mesh_index)];
+    for (std::uint32_t p = 0; p < mesh.primitive_count; ++p) {
+        const Primitive& primitive = face.primitives[mesh.first_primitive + p];
+        for (std::uint32_t v = 0; v < primitive.vertex_count; ++v) {
+            bounds.add(glm::dvec3(matrix * glm::dvec4(face.positions[primitive.first_vertex + v], 1)));
+        }
+    }
+}
+
 /// A point, or the origin where a node of zero scale has no inverse.
 glm::vec3 finite_or_origin(glm::vec3 point) {
     const bool finite = std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
@@ -81,12 +102,12 @@ std::vector<glm::mat4> rest_matrices(const Face& face) {
 HeadAndEyes find_head_and_eyes(const Face& face) {
     HeadAndEyes found;
     const auto below = drawing_nodes_below(face);
-    const std::vector<glm::mat4> world = rest_matrices(face);
+    const std::vector<glm::dmat4> world = rest_placement(face);
     const auto drawn =
         static_cast<std::size_t>(std::ranges::count_if(face.nodes, [](const Node& node) { return node.mesh >= 0; }));
     const auto bounds_in = [&](std::size_t root) {
-        const glm::mat4 node_from_world = glm::inverse(world[root]);
-        Bounds bounds;
+        const glm::dmat4 node_from_world = glm::inverse(world[root]);
+        FineBounds bounds;
         for (const std::uint32_t n : below[root]) {
             add_mesh(face, face.nodes[n].mesh, node_from_world * world[n], bounds);
         }
@@ -96,12 +117,13 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
     // Deeper nodes come later, so the last that holds everything is the lowest.
     for (std::size_t n = 0; n < face.nodes.size(); ++n) {
         if (drawn == 0 || below[n].size() != drawn) continue;
-        Bounds bounds;  // in the world, since "up" is the world's
+        FineBounds bounds;  // in the world, since "up" is the world's
         for (const std::uint32_t d : below[n]) add_mesh(face, face.nodes[d].mesh, world[d], bounds);
-        constexpr float neck_height = 1.0F / 3;
-        const glm::vec3 point(bounds.centre().x, bounds.low.y + neck_height * bounds.size().y, bounds.centre().z);
+        constexpr double neck_height = 1.0 / 3;
+        const glm::dvec3 point(bounds.centre().x, bounds.low.y + neck_height * (bounds.high.y - bounds.low.y),
+                               bounds.centre().z);
         found.head = {static_cast<std::int32_t>(n),
-                      finite_or_origin(glm::vec3(glm::inverse(world[n]) * glm::vec4(point, 1)))};
+                      finite_or_origin(glm::vec3(glm::inverse(world[n]) * glm::dvec4(point, 1)))};
     }
 
     const auto find_eye = [&](std::string_view side) {
@@ -109,11 +131,11 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
         for (std::size_t n = 0; n < face.nodes.size(); ++n) {
             const std::string name = canonical_name(face.nodes[n].name);
             if (!name.ends_with(wanted) || below[n].empty() || below[n].size() == drawn) continue;
-            const Bounds bounds = bounds_in(n);
-            const bool origin_inside = glm::all(glm::lessThan(bounds.low, glm::vec3(0))) &&
-                                       glm::all(glm::greaterThan(bounds.high, glm::vec3(0)));
+            const FineBounds bounds = bounds_in(n);
+            const bool origin_inside = glm::all(glm::lessThan(bounds.low, glm::dvec3(0))) &&
+                                       glm::all(glm::greaterThan(bounds.high, glm::dvec3(0)));
             return Pivot{static_cast<std::int32_t>(n),
-                         origin_inside ? glm::vec3(0) : finite_or_origin(bounds.centre())};
+                         origin_inside ? glm::vec3(0) : finite_or_origin(glm::vec3(bounds.centre()))};
         }
         return Pivot{};
     };
@@ -121,7 +143,7 @@ HeadAndEyes find_head_and_eyes(const Face& face) {
     found.right_eye = find_eye("Right");
     if (found.left_eye.node >= 0 && found.right_eye.node >= 0) {
         const auto x_of = [&](const Pivot& eye) {
-            return (world[static_cast<std::size_t>(eye.node)] * glm::vec4(eye.point_node, 1)).x;
+            return (world[static_cast<std::size_t>(eye.node)] * glm::dvec4(eye.point_node, 1)).x;
         };
         if (x_of(found.left_eye) < x_of(found.right_eye)) std::swap(found.left_eye, found.right_eye);
     }

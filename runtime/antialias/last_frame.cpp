@@ -20,23 +20,27 @@ gl::Texture make_kept_texture(PixelFormat format, const TextureShape& shape) {
 
 }  // namespace
 
+bool compares_frames(const FrameState& frame, const ViewFrame& view) {
+    return frame.sampling.temporal || view.velocity_framebuffer != 0;
+}
+
 void find_last_frame(FrameState& frame, const ViewFrame& view) {
     LastFrame& last = frame.own<LastFrame>();
     for (CharacterState* character : frame.characters) character->moves = false;
-    if (!frame.sampling.temporal) {
-        if (last.images[0].color || last.images[1].color) last = {};
+    if (!compares_frames(frame, view)) {
+        if (last.known || last.images[0].color) last = {};
         return;
     }
-    const TextureShape& shape = last.images[last.phase].shape;
-    const PixelFormat format = picture_format(view.output);
+    if (!frame.sampling.temporal) last.images = {};
+    const TextureShape shape{picture_format(view.output), view.width, view.height, 1};
     // One whose surface is not known as it was in the last frame makes this one a cut.
     const bool same_characters = last.scene == frame.scene && last.scene_frame + 1 == frame.scene->frame &&
                                  std::ranges::equal(last.characters, frame.characters) &&
                                  std::ranges::all_of(frame.characters, [&last](const CharacterState* character) {
                                      return character->last.frame == last.scene_frame;
                                  });
-    last.known = last.known && same_characters && !view.cut && last.sampling == frame.sampling &&
-                 shape.format == format && shape.width == view.width && shape.height == view.height;
+    last.known = last.known && same_characters && !view.cut && last.sampling == frame.sampling && last.shape == shape;
+    last.shape = shape;
     last.sampling = frame.sampling;
     last.phase = last.known ? 1 - last.phase : 0;
     last.images[last.phase].has_speeds = false;
@@ -89,7 +93,7 @@ ResourceId import_kept_depth(FrameState& frame, TextureShape shape) {
 }
 
 void keep_for_next_frame(FrameState& frame) {
-    if (!frame.sampling.temporal) return;
+    if (!compares_frames(frame, *frame.view)) return;
     LastFrame& last = frame.own<LastFrame>();
     last.scene = frame.scene;
     last.scene_frame = frame.scene->frame;

@@ -1,5 +1,6 @@
 #pragma once
-/// What a temporal mode keeps from frame to frame. Other modes keep nothing: all of it is given back.
+/// What a temporal mode keeps from frame to frame, and a view that tells velocities. Others keep nothing: all of it is
+/// given back.
 
 #include <array>
 #include <vector>
@@ -28,13 +29,17 @@ struct KeptImage {
 struct LastFrame {
     bool known = false;  ///< there was a frame before this one, of the same size and sampling
     Sampling sampling;
+    TextureShape shape;             ///< of its picture
     std::uint32_t phase = 0;        ///< of this frame: 0 and 1 in turn
     std::uint64_t scene_frame = 0;  ///< SceneState::frame of it
     const SceneState* scene = nullptr;
     std::vector<const CharacterState*> characters;
     Camera camera;                    ///< GL's own convention, not moved
-    std::array<KeptImage, 2> images;  ///< [phase]: of this frame, [1 - phase]: of the last
+    std::array<KeptImage, 2> images;  ///< of a temporal mode; [phase]: of this frame, [1 - phase]: of the last
 };
+
+/// Whether a view compares its frame with the one before it.
+bool compares_frames(const FrameState& frame, const ViewFrame& view);
 
 /// Settles whether there is a last frame for this one (facts.has_last_frame, facts.moves), and gives back what a mode
 /// that is not temporal does not need. Call once frame.sampling is known.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 
-#include "runtime/frame/effect.h"
+#include "runtime/effects/shared_settings.h"
 
 namespace blush {
 namespace {
 
-bool velocities_wanted(const EffectSettings& settings) { return settings.choice("velocities", "source") == 0; }
+bool velocities_wanted(const EffectSettings& settings) { return settings.choice(velocities_source) == 0; }
 
 }  // namespace
 
@@ -46,7 +46,7 @@ glm::vec2 Sampling::sample_offset_pixels(std::uint32_t picture, std::uint32_t ph
 Sampling find_sampling(const EffectSettings& settings, const ViewFrame& view, std::uint32_t largest_sample_count,
                        bool on_screen) {
     Sampling sampling;
-    sampling.mode = static_cast<AntialiasingMode>(settings.choice("antialiasing", "mode"));
+    sampling.mode = static_cast<AntialiasingMode>(settings.choice(antialiasing_mode));
     if (!on_screen) return {};
     const auto multisampled = [&](std::uint32_t wanted) {
         return std::clamp(wanted, 1U, std::max(1U, largest_sample_count));
@@ -81,7 +81,7 @@ Sampling find_sampling(const EffectSettings& settings, const ViewFrame& view, st
             sampling.temporal = velocities_wanted(settings);
             break;
         case AntialiasingMode::supersampled: {
-            const auto side = static_cast<std::uint32_t>(settings.number("supersampling", "factor"));
+            const auto side = static_cast<std::uint32_t>(settings.number(supersampling_factor));
             sampling.pictures = side * side;
             break;
         }

@@ -8,6 +8,7 @@
 #include "rig/blood/skin_colour_table.h"
 #include "rig/wrinkles/texture_bytes.h"
 #include "runtime/appearance/signed_texture.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/files/wrinkle_bake.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/shared_blocks.h"
@@ -139,11 +140,11 @@ Map<glm::vec3> normal_differences(const DerivativeMap& wrinkles, const NormalMap
 
 WrinkleTextures& wrinkle_textures(CharacterState& character) {
     const WrinkleSet& set = *character.asset.appearance().wrinkles;
-    const auto storage = static_cast<WrinkleStorage>(character.settings.choice(wrinkles_effect.name, "storage"));
+    const auto storage = static_cast<WrinkleStorage>(character.settings.choice(wrinkles_storage));
     WrinkleTextures& textures =
         character.model->own<std::array<WrinkleTextures, 3>>()[static_cast<std::size_t>(storage)];
     textures.storage = storage;
-    const bool differences = character.settings.choice(wrinkles_effect.name, "encoding") == 1;
+    const bool differences = character.settings.choice(wrinkles_encoding) == 1;
     if (!textures.masks) {
         textures.masks = mask_texture(set.masks);
         end_at_part(textures.masks, set);
@@ -178,9 +179,7 @@ void zone_weights_of(const CharacterState& character, std::span<float> out) {
     }
 }
 
-bool colour_from_pigments(const CharacterState& character) {
-    return character.settings.choice(blood_effect.name, "colour") == 1;
-}
+bool colour_from_pigments(const CharacterState& character) { return character.settings.choice(blood_colour) == 1; }
 
 namespace {
 
@@ -213,8 +212,9 @@ void make_residual(BloodTextures& textures, const ColourMap& map) {
 BloodTextures& blood_textures(CharacterState& character) {
     BloodTextures& textures = character.model->own<BloodTextures>();
     const SkinPigments& pigments = *character.asset.appearance().pigments;
-    make_table(textures, static_cast<std::uint32_t>(character.settings.number(blood_effect.name, "table_nodes")));
+    make_table(textures, static_cast<std::uint32_t>(character.settings.number(blood_table_nodes)));
     if (colour_from_pigments(character)) make_residual(textures, pigments.maps.residual);
+    gl::require_program(textures.blend_program, {"screen.vert", "blood/blood_change.frag"});
     if (textures.pigments) return textures;
     const std::uint32_t width = pigments.maps.skin.width, height = pigments.maps.skin.height;
     const int levels = levels_of(width, height);
@@ -243,7 +243,6 @@ BloodTextures& blood_textures(CharacterState& character) {
                             texels.data());
     }
     textures.blended_shape = {PixelFormat::rg16f, change_width, change_height, 1};
-    gl::require_program(textures.blend_program, {"screen.vert", "blood/blood_change.frag"});
     return textures;
 }
 
@@ -281,47 +280,6 @@ void blend_blood(FrameState& frame, CharacterState& character) {
     glUniform4fv(1 + BLUSH_MOST_BLOOD_MAPS / 4, static_cast<GLsizei>(shares.size()), &shares[0].x);
     draw_screen(frame);
     blended.shares = character.pose.hemoglobin;
-}
-
-namespace {
-
-struct AppearanceBuffer {
-    gl::Buffer buffer;  // shared::AppearanceBlock
-};
-
-}  // namespace
-
-void bind_appearance(CharacterState& character, bool wrinkles, bool blood) {
-    if (!wrinkles && !blood) return;
-    shared::AppearanceBlock block{};
-    if (wrinkles) {
-        const WrinkleTextures& textures = wrinkle_textures(character);
-        const WrinkleSet& set = *character.asset.appearance().wrinkles;
-        std::array<float, std::size_t{4} * BLUSH_MOST_WRINKLE_MASKS> weights{};
-        zone_weights_of(character, weights);
-        for (std::size_t z = 0; z < weights.size(); ++z)
-            block.wrinkle_weights[z / 4][static_cast<glm::length_t>(z % 4)] = weights[z];
-        block.wrinkle_range.x = set.range;
-        const glm::vec2 scale = 1.0F / (set.part.to - set.part.from);
-        block.wrinkle_part = glm::vec4(scale, -set.part.from * scale);
-        const bool differences = character.settings.choice(wrinkles_effect.name, "encoding") == 1;
-        glBindTextureUnit(BLUSH_WRINKLE_MAP_UNIT, (differences ? textures.differences : textures.derivatives).name());
-        glBindTextureUnit(BLUSH_WRINKLE_MASKS_UNIT, textures.masks.name());
-    }
-    if (blood) {
-        const BloodTextures& textures = blood_textures(character);
-        block.blood = {character.pose.hemoglobin_factor, static_cast<float>(largest_hemoglobin),
-                       static_cast<float>(textures.table_nodes), 0};
-        glBindTextureUnit(BLUSH_PIGMENT_UNIT, textures.pigments.name());
-        glBindTextureUnit(BLUSH_BLOOD_CHANGE_UNIT, blended_blood(character).texture.name());
-        glBindTextureUnit(BLUSH_SKIN_COLOR_UNIT, textures.table.name());
-        if (colour_from_pigments(character)) glBindTextureUnit(BLUSH_RESIDUAL_UNIT, textures.residual.name());
-    }
-    for (GLuint unit = BLUSH_WRINKLE_MAP_UNIT; unit <= BLUSH_SKIN_COLOR_UNIT; ++unit) glBindSampler(unit, 0);
-    auto& buffer = character.own<AppearanceBuffer>().buffer;
-    if (!buffer) buffer = gl::make_buffer(sizeof(block), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    glNamedBufferSubData(buffer.name(), 0, sizeof(block), &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, BLUSH_APPEARANCE_BINDING, buffer.name());
 }
 
 }  // namespace blush

@@ -62,7 +62,4 @@ Map<glm::vec3> normal_differences(const DerivativeMap& wrinkles, const NormalMap
 /// Blends the blood maps of the pose into the character's BlendedBlood.
 void blend_blood(FrameState& frame, CharacterState& character);
 
-/// Writes the shared block and binds it with the textures of what is on. Effects that are off bind nothing.
-void bind_appearance(CharacterState& character, bool wrinkles, bool blood);
-
 }  // namespace blush

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 
+#include "rig/deform/face_part.h"
 #include "runtime/gl/shared_blocks.h"
 
 namespace blush {
@@ -94,20 +95,8 @@ Status DeformModel::build(std::uint64_t largest_block_bytes, const std::string& 
     if (!face.joints.empty()) {
         joint_indices_ = gl::make_buffer<glm::u16vec4>(face.joints);
         joint_weights_ = gl::make_buffer<glm::vec4>(face.joint_weights);
-        std::vector<std::uint32_t> first_joint_of_skin;
-        std::uint32_t first_joint = 0;
-        for (const Skin& part : face.skins) {
-            first_joint_of_skin.push_back(first_joint);
-            first_joint += static_cast<std::uint32_t>(part.joints.size());
-        }
-        for (const Primitive& primitive : face.primitives) {
-            const auto node = std::ranges::find_if(face.nodes, [&](const Node& candidate) {
-                return candidate.mesh == static_cast<std::int32_t>(primitive.mesh) && candidate.skin >= 0;
-            });
-            // A primitive without a skin has zero joint weights and passes through.
-            first_joint_of_primitive_.push_back(
-                node != face.nodes.end() ? first_joint_of_skin[static_cast<std::size_t>(node->skin)] : 0);
-        }
+        // A primitive without a skin has zero joint weights and passes through.
+        first_joint_of_primitive_ = first_joints(face);
     }
     return Done{};
 }

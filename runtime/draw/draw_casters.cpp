@@ -1,5 +1,7 @@
 #include "runtime/draw/draw_casters.h"
 
+#include <optional>
+
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
 
@@ -16,16 +18,21 @@ bool is_solid(const Face& face, const Primitive& primitive) {
            face.materials[static_cast<std::size_t>(primitive.material)].alpha_mode == AlphaMode::opaque;
 }
 
+std::optional<Casters> casters_of(const CharacterState& character, const Primitive& primitive) {
+    if (is_hair_card(character, primitive))
+        return is_textured_hair(character, primitive) ? Casters::textured_hair : Casters::hair;
+    if (is_solid(character.face, primitive)) return Casters::solid;
+    return std::nullopt;
+}
+
 }  // namespace
 
 void draw_casters(FrameState& frame, CharacterState& character, Casters casters, const gl::Program& program,
                   const glm::dmat4& shadow_from_world) {
     character.model->bind_surface(*character.surface);
     each_drawn_primitive(character, [&](const Primitive& primitive, std::size_t draw_index, bool mirrored) {
-        const bool hair = is_hair_card(character, primitive);
-        if (hair != (casters == Casters::hair)) return;
-        if (!hair && !is_solid(character.face, primitive)) return;
-        if (hair) {
+        if (casters_of(character, primitive) != casters) return;
+        if (casters != Casters::solid) {
             bind_hair_core(frame, character, primitive, SeenFrom::light);
         } else {
             use_program(frame, program);

@@ -71,34 +71,11 @@ gl::Texture make_image_texture(const Image& image, bool srgb) {
 /// In the order of MaterialBlock.
 constexpr std::size_t texture_count = 6;
 constexpr std::array<bool, texture_count> texture_is_srgb = {true, false, false, false, true, false};
-constexpr std::array<GLuint, texture_count> unit_of_texture = {BLUSH_BASE_COLOR_UNIT, BLUSH_METALLIC_ROUGHNESS_UNIT,
-                                                               BLUSH_NORMAL_MAP_UNIT, BLUSH_OCCLUSION_UNIT,
-                                                               BLUSH_EMISSIVE_UNIT,   BLUSH_SPECULAR_UNIT};
-constexpr std::array<std::uint32_t, texture_count> bit_of_texture = {1U << 0, 1U << 1, 1U << 2,
-                                                                     1U << 3, 1U << 4, shade_specular_map};
+constexpr std::array<const char*, texture_count> define_of_texture = {
+    "BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP", "OCCLUSION_MAP", "EMISSIVE_MAP", "SPECULAR_MAP"};
 
 std::array<const TextureUse*, texture_count> textures_of(const Material& m) {
     return {&m.base_color_srgb, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive_srgb, &m.specular_map};
-}
-
-constexpr std::array<std::string_view, 19> defines_of_bits = {
-    "BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP", "OCCLUSION_MAP", "EMISSIVE_MAP", "SKIN",
-    "SCATTER",        "SKIN_REFLECTION",        "SHADOWS",    "TRANSLUCENCY",  "ENVIRONMENT",  "AMBIENT_OCCLUSION",
-    "WRINKLES",       "WRINKLE_DIFFERENCES",    "BLOOD",      "EYE",           "MOUTH",        "HAIR",
-    "PIGMENT_COLOR"};
-
-std::uint32_t permutation_bits(const Material& material, MaterialKind kind, std::uint32_t frame_bits) {
-    const auto uses = textures_of(material);
-    std::uint32_t bits = frame_bits;
-    for (std::size_t t = 0; t < uses.size(); ++t) bits |= uses[t]->image >= 0 ? bit_of_texture[t] : 0U;
-    // What only skin has is left out elsewhere, so that fewer programs are made.
-    constexpr std::uint32_t of_skin = shade_skin_reflection | shade_translucency | shade_wrinkles |
-                                      shade_wrinkle_differences | shade_blood | shade_pigment_colour;
-    bits &= ~(shade_eye | shade_mouth | shade_hair);
-    if (kind == MaterialKind::eye) bits |= frame_bits & shade_eye;
-    if (kind == MaterialKind::mouth) bits |= frame_bits & shade_mouth;
-    if (kind == MaterialKind::hair) bits |= frame_bits & shade_hair;
-    return kind == MaterialKind::skin ? bits | shade_skin : bits & ~of_skin;
 }
 
 /// The normal map among textures_of().
@@ -226,27 +203,20 @@ void FaceModel::bind_surface(const SurfaceBuffers& surface) const {
     glBindVertexArray(array);
 }
 
-namespace {
-
-const Material& material_of(const Face& face, std::int32_t material) {
-    static const Material plain = default_material();
-    return material >= 0 ? face.materials[static_cast<std::size_t>(material)] : plain;
-}
-
-}  // namespace
-
-void FaceModel::bind_maps(const Face& face, std::int32_t material) const {
+void FaceModel::bind_maps(std::int32_t material, std::uint32_t textures) const {
+    const Face& face = asset.face();
     const std::size_t index = material >= 0 ? static_cast<std::size_t>(material) : face.materials.size();
     glBindBufferRange(GL_UNIFORM_BUFFER, BLUSH_MATERIAL_BINDING, material_blocks.name(),
                       static_cast<GLintptr>(index * material_stride), sizeof(shared::MaterialBlock));
-    const auto uses = textures_of(material_of(face, material));
-    for (GLuint t = 0; t < uses.size(); ++t) {
+    if (material < 0) return;
+    const auto uses = textures_of(face.materials[index]);
+    GLuint unit = 0;
+    for (std::size_t t = 0; t < uses.size(); ++t) {
+        if ((textures >> t & 1U) == 0) continue;
         const TextureUse& use = *uses[t];
-        if (use.image < 0) continue;
-        const auto image = static_cast<std::size_t>(use.image);
-        const gl::Texture& texture = textures_for(t)[image];
-        glBindTextureUnit(unit_of_texture[t], texture.name());
-        glBindSampler(unit_of_texture[t], samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
+        glBindTextureUnit(unit, textures_for(t)[static_cast<std::size_t>(use.image)].name());
+        glBindSampler(unit, samplers[(use.repeat_u ? 1U : 0U) + (use.repeat_v ? 2U : 0U)].name());
+        ++unit;
     }
 }
 
@@ -263,20 +233,19 @@ void DrawBlocks::bind(std::size_t index) const {
                       sizeof(shared::DrawBlock));
 }
 
-std::uint32_t permutation_of(const Face& face, std::int32_t material, MaterialKind kind, std::uint32_t frame_bits) {
-    return permutation_bits(material_of(face, material), kind, frame_bits);
+std::uint32_t material_textures(const Face& face, std::int32_t material) {
+    std::uint32_t textures = 0;
+    if (material < 0) return textures;
+    const auto uses = textures_of(face.materials[static_cast<std::size_t>(material)]);
+    for (std::size_t t = 0; t < uses.size(); ++t) textures |= uses[t]->image >= 0 ? 1U << t : 0U;
+    return textures;
 }
 
-gl::Program shade_program(DeviceState& device, std::uint32_t permutation) {
-    gl::Program& program = device.store.get<ShadePrograms>().made[permutation];
-    if (program) return program;
-    std::vector<std::string_view> defines;
-    for (std::size_t t = 0; t < defines_of_bits.size(); ++t) {
-        if ((permutation >> t & 1U) != 0) defines.push_back(defines_of_bits[t]);
+void material_defines(std::uint32_t textures, std::vector<std::string>& out) {
+    std::size_t unit = 0;
+    for (std::size_t t = 0; t < texture_count; ++t) {
+        if ((textures >> t & 1U) != 0) out.push_back(std::string(define_of_texture[t]) + " " + std::to_string(unit++));
     }
-    if ((permutation & shade_specular_map) != 0) defines.emplace_back("SPECULAR_MAP");
-    gl::require_program(program, {"draw/face.vert", "draw/face.frag", defines});
-    return program;
 }
 
 }  // namespace blush

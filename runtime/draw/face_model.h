@@ -3,41 +3,18 @@
 
 #include <array>
 #include <cstddef>
-#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "rig/face.h"
-#include "rig/head/material_kind.h"
 #include "rig/result.h"
 #include "runtime/deform/stream_out.h"
 #include "runtime/face_asset.h"
 #include "runtime/frame/store.h"
 #include "runtime/gl/object.h"
-#include "runtime/gl/program.h"
 
 namespace blush {
-
-struct DeviceState;
-
-/// Bits of a permutation of face.frag: the material's first five textures come first, in the order of MaterialBlock.
-enum ShadeBits : std::uint32_t {
-    shade_skin = 1U << 5,  ///< of the material
-    shade_scatter = 1U << 6,
-    shade_skin_reflection = 1U << 7,
-    shade_shadows = 1U << 8,
-    shade_translucency = 1U << 9,
-    shade_environment = 1U << 10,
-    shade_ambient_occlusion = 1U << 11,
-    shade_wrinkles = 1U << 12,
-    shade_wrinkle_differences = 1U << 13,
-    shade_blood = 1U << 14,
-    shade_eye = 1U << 15,  ///< of the material, where the frame has it
-    shade_mouth = 1U << 16,
-    shade_hair = 1U << 17,
-    shade_pigment_colour = 1U << 18,  ///< with blood
-    shade_specular_map = 1U << 24,    ///< of the material
-};
 
 /// Where the nodes of one character stand: shared::DrawBlock of each node and, last, of skinned vertices.
 struct DrawBlocks {
@@ -56,8 +33,9 @@ struct FaceModel {
 
     /// Binds the vertex array with `surface` as its positions, normals and tangents.
     void bind_surface(const SurfaceBuffers& surface) const;
-    /// Binds the block and the textures of a material (-1: the default one), for a program of the caller's.
-    void bind_maps(const Face& face, std::int32_t material) const;
+    /// Binds the block of a material (-1: the default one), and those of its textures that the program reads
+    /// (material_textures(), or some of them) to units from 0 on.
+    void bind_maps(std::int32_t material, std::uint32_t textures) const;
 
     Device device;
     FaceAsset asset;
@@ -86,13 +64,11 @@ private:
     const std::vector<gl::Texture>& textures_for(std::size_t use) const;
 };
 
-/// Bits of the permutation that shades a material. frame_bits: what the frame adds.
-std::uint32_t permutation_of(const Face& face, std::int32_t material, MaterialKind kind, std::uint32_t frame_bits);
-/// Permutations that were made on a device.
-struct ShadePrograms {
-    std::map<std::uint32_t, gl::Program> made;
-};
-/// The program of a permutation, made where it is not there yet; none where that fails (gl::require_program).
-gl::Program shade_program(DeviceState& device, std::uint32_t permutation);
+/// Bit t: the material (-1: the default one) has the t-th texture, in the order of MaterialBlock.
+std::uint32_t material_textures(const Face& face, std::int32_t material);
+/// The first of them.
+inline constexpr std::uint32_t base_color_texture = 1;
+/// What shaders/draw/material.glsl asks: "BASE_COLOR_MAP 0", the unit of each texture.
+void material_defines(std::uint32_t textures, std::vector<std::string>& out);
 
 }  // namespace blush

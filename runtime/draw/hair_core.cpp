@@ -24,8 +24,12 @@ bool is_hair_card(const CharacterState& character, const Primitive& primitive) {
            character.face.materials[material].alpha_mode != AlphaMode::opaque;
 }
 
+bool is_textured_hair(const CharacterState& character, const Primitive& primitive) {
+    return character.face.materials[static_cast<std::size_t>(primitive.material)].base_color_srgb.image >= 0;
+}
+
 void require_hair_cores(FrameState& frame, SeenFrom from) {
-    constexpr std::array<std::string_view, 1> with_texture = {"BASE_COLOR_MAP"};
+    constexpr std::array<std::string_view, 1> with_texture = {"BASE_COLOR_MAP 0"};
     for (const bool textured : {false, true}) {
         const std::span<const std::string_view> defines(with_texture.data(), textured ? 1 : 0);
         gl::require_program(
@@ -35,10 +39,9 @@ void require_hair_cores(FrameState& frame, SeenFrom from) {
 }
 
 void bind_hair_core(FrameState& frame, CharacterState& character, const Primitive& primitive, SeenFrom from) {
-    const Material& material = character.face.materials[static_cast<std::size_t>(primitive.material)];
-    const bool textured = material.base_color_srgb.image >= 0;
+    const bool textured = is_textured_hair(character, primitive);
     use_program(frame, frame.shared_own<HairCorePrograms>().made[index_of(textured, from)]);
-    character.model->bind_maps(character.face, primitive.material);
+    character.model->bind_maps(primitive.material, textured ? base_color_texture : 0);
 }
 
 }  // namespace blush

@@ -8,6 +8,9 @@ namespace blush {
 /// Cards of hair, brows and lashes: materials named so that blend or are cut out.
 bool is_hair_card(const CharacterState& character, const Primitive& primitive);
 
+/// Of a card: whether a texture says where it is dense.
+bool is_textured_hair(const CharacterState& character, const Primitive& primitive);
+
 enum class SeenFrom : std::uint8_t { camera, light };
 
 /// Makes the programs of bind_hair_core() where they are not there yet.

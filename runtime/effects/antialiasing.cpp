@@ -10,9 +10,11 @@
 #include "runtime/antialias/antialias_passes.h"
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
+#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -76,6 +78,7 @@ constexpr std::array<Setting, 12> settings = {{
      .highest = 1,
      .default_number = static_cast<double>(Predication{}.strength)},
 }};
+using Own = OwnSetting<antialiasing_effect, settings>;
 
 struct Antialiasing {
     std::optional<AntialiasPasses> passes;
@@ -94,21 +97,21 @@ PictureMeaning meaning_of(Output output) {
     return {.transfer = output == Output::display_srgb ? Transfer::srgb : Transfer::linear};
 }
 
-float number_or(const EffectSettings& all, std::string_view name, float preset) {
-    const double value = all.number("antialiasing", name);
+float number_or(const EffectSettings& all, Own name, float preset) {
+    const double value = all.number(name);
     return value < 0 ? preset : static_cast<float>(value);
 }
-int steps_or(const EffectSettings& all, std::string_view name, int least, int most, int preset) {
-    const double value = all.number("antialiasing", name);
+int steps_or(const EffectSettings& all, Own name, int least, int most, int preset) {
+    const double value = all.number(name);
     return value < 0 ? preset : std::clamp(static_cast<int>(std::lround(value)), least, most);
 }
 
 EdgeSettings edge_settings(const EffectSettings& all, EdgeSettings preset) {
-    preset.source = static_cast<EdgeSource>(all.choice("antialiasing", "edges"));
+    preset.source = static_cast<EdgeSource>(all.choice(Own("edges")));
     preset.threshold = number_or(all, "threshold", preset.threshold);
     preset.contrast_factor = number_or(all, "contrast_factor", preset.contrast_factor);
     preset.depth_threshold = number_or(all, "depth_threshold", preset.depth_threshold);
-    preset.predication.on = all.choice("antialiasing", "predication") != 0;
+    preset.predication.on = all.choice(Own("predication")) != 0;
     preset.predication.depth_threshold = preset.depth_threshold;
     preset.predication.scale = number_or(all, "predication_scale", preset.predication.scale);
     preset.predication.strength = number_or(all, "predication_strength", preset.predication.strength);
@@ -117,7 +120,7 @@ EdgeSettings edge_settings(const EffectSettings& all, EdgeSettings preset) {
 
 void find_settings(FrameState& frame, Antialiasing& own) {
     const EffectSettings& all = frame.settings;
-    own.smaa = smaa_preset(static_cast<SmaaPreset>(all.choice("antialiasing", "preset")));
+    own.smaa = smaa_preset(static_cast<SmaaPreset>(all.choice(Own("preset"))));
     own.smaa.edges = edge_settings(all, own.smaa.edges);
     own.smaa.search_steps = steps_or(all, "search_steps", 1, largest_search_steps, own.smaa.search_steps);
     own.smaa.diagonal_search_steps =
@@ -232,36 +235,7 @@ void declare(FrameState& frame) {
         blend_pass(frame, graph, frame.own<Antialiasing>().colors, meaning_of(frame.view->output));
     };
     frame.graph.pass("blend neighbours", blend).reads(images.from).reads(weights).writes(images.to);
-    if (frame.on(velocities_effect)) declare_speeds(frame, weights);
-}
-
-constexpr StudiedMode preset(std::string_view label, std::string_view choice) {
-    return {.label = label,
-            .work = "one sample, filtered",
-            .mode = "smaa_1x",
-            .setting = "antialiasing.preset",
-            .choice = choice};
-}
-
-constexpr std::array<StudiedMode, 11> studied = {{
-    {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
-    {.label = "antialiasing.mode=msaa4", .work = "4 samples", .mode = "msaa4", .is_default = true},
-    {.label = "antialiasing.mode=mlaa", .work = "one sample, filtered", .mode = "mlaa"},
-    preset("smaa_1x, preset low", "low"),
-    preset("smaa_1x, preset medium", "medium"),
-    preset("smaa_1x, preset high", "high"),
-    preset("smaa_1x, preset ultra", "ultra"),
-    {.label = "antialiasing.mode=smaa_s2x", .work = "two pictures, filtered", .mode = "smaa_s2x"},
-    {.label = "antialiasing.mode=smaa_t2x", .work = "two frames, filtered", .mode = "smaa_t2x", .frames = 2},
-    {.label = "antialiasing.mode=smaa_4x",
-     .work = "two frames of two pictures, filtered",
-     .mode = "smaa_4x",
-     .frames = 2},
-    {.label = "antialiasing.mode=supersampled", .work = "16 pictures", .mode = "supersampled"},
-}};
-
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    return antialiasing_studies(device, face, studied);
+    if (frame.sampling.temporal && frame.on(velocities_effect)) declare_speeds(frame, weights);
 }
 
 /// Whatever the settings under test, through the filter with all that it has.
@@ -276,6 +250,8 @@ constexpr std::array<HardCase, 2> hard_cases = {{
 
 }  // namespace
 
+constinit const SettingId antialiasing_mode = Own("mode");
+
 const Effect antialiasing_effect = {
     .name = "antialiasing",
     .what = "edges of the picture are found and smoothed",
@@ -284,7 +260,6 @@ const Effect antialiasing_effect = {
     .stage = Stage::filter,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -4,9 +4,15 @@
 #include <array>
 
 #include "runtime/appearance/appearance_gpu.h"
+#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
-#include "runtime/measure/appearance_frames.h"
-#include "runtime/measure/appearance_probe.h"
+#include "runtime/frame/own_setting.h"
+#include "runtime/gl/shared_blocks.h"
+
+namespace blush::shared {
+#include "shaders/blood/blood_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -24,6 +30,7 @@ constexpr std::array<Setting, 3> settings = {{
      .highest = 512,
      .default_number = 64},
 }};
+using Own = OwnSetting<blood_effect, settings>;
 
 Need need(const FrameState& /*frame*/, const CharacterState& character) {
     if (!character.asset.appearance().pigments) {
@@ -31,7 +38,7 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
                 .reason = "the face has no maps of melanin and hemoglobin (blush bake appearance makes them)",
                 .can_be_forced = false};
     }
-    if (is_hidden(character.settings, "blood")) {
+    if (character.settings.choice(Own("shown")) == 1) {
         return {.on = false, .reason = "blood.shown says no", .can_be_forced = false};
     }
     if (colour_from_pigments(character)) return {.on = true, .reason = "blood.colour says pigments"};
@@ -41,6 +48,11 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
     }
     return {.on = true, .reason = "some expression or state moves blood"};
 }
+
+/// What "blend blood" writes, in the frame being drawn.
+struct Change {
+    ResourceId id{};
+};
 
 bool blends(const FrameState& frame, CharacterState& character) {
     return character.on(blood_effect) &&
@@ -52,7 +64,7 @@ void declare(FrameState& frame) {
     for (CharacterState* character : frame.characters) {
         if (!character->on(blood_effect)) continue;
         const BloodTextures& textures = blood_textures(*character);
-        character->resources.blood_change =
+        character->own<Change>().id =
             frame.graph.import_texture("blood", blended_blood(*character).texture.name(), textures.blended_shape);
         any |= blends(frame, *character);
     }
@@ -64,41 +76,60 @@ void declare(FrameState& frame) {
     };
     frame.graph.pass("blend blood", blend_all);
     for (CharacterState* character : frame.characters) {
-        if (blends(frame, *character)) frame.graph.writes(character->resources.blood_change);
+        if (blends(frame, *character)) frame.graph.writes(character->own<Change>().id);
     }
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face);
-    if (!probe || !probe->state().asset.appearance().pigments) return {};
-    Study study{"anger on the face's texture, 256 x 256 points",
-                "equation 7.6 and the table on the CPU",
-                "CIEDE2000",
-                {},
-                probe};
-    Variant on;
-    on.label = "blood";
-    on.is_default = true;
-    on.work = "3 lookups a pixel and 1 of the texture";
-    on.run = [probe] { probe->draw_colors("anger"); };
-    on.error = [probe] { return probe->color_error("anger"); };
-    study.variants.push_back(std::move(on));
-    Variant off;
-    off.label = "left out";
-    off.work = "1 lookup of the texture";
-    off.run = [probe] { probe->draw_colors(""); };
-    off.error = [probe] { return probe->color_error("anger", false); };
-    study.variants.push_back(std::move(off));
-    std::vector<Study> result = blood_frame_study(device, face, millimetres_a_unit);
-    result.push_back(std::move(study));
-    return result;
 }
 
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"face without maps of its pigments", "is drawn as it is", [](Face& /*face*/) {}},
 }};
 
+std::uint32_t variant(const FrameState& /*frame*/, const CharacterState& character) {
+    return colour_from_pigments(character) ? 1 : 0;
+}
+
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    auto& out = *static_cast<shared::BloodUniforms*>(to);
+    out.factor = character.pose.hemoglobin_factor;
+    out.largest = static_cast<float>(largest_hemoglobin);
+    out.table_nodes = static_cast<float>(blood_textures(character).table_nodes);
+}
+
+void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t unit) {
+    const BloodTextures& textures = blood_textures(character);
+    glBindTextureUnit(unit, textures.pigments.name());
+    glBindTextureUnit(unit + 1, blended_blood(character).texture.name());
+    glBindTextureUnit(unit + 2, textures.table.name());
+    if (colour_from_pigments(character)) glBindTextureUnit(unit + 3, textures.residual.name());
+}
+
+void reads(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        if (character->on(blood_effect)) frame.graph.reads(character->own<Change>().id);
+    }
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"colour"};
+constexpr std::array<ShadingVariant, 1> variants = {{{"PIGMENT_COLOR", 1}}};
+constexpr std::array<UniformField, 3> fields = {{{"factor", offsetof(shared::BloodUniforms, factor)},
+                                                 {"largest", offsetof(shared::BloodUniforms, largest)},
+                                                 {"table_nodes", offsetof(shared::BloodUniforms, table_nodes)}}};
+constexpr ShadingPart shading = {
+    .file = "blood/blood.glsl",
+    .hooks = hooks,
+    .materials = materials_of(MaterialKind::skin),
+    .variants = variants,
+    .variant = variant,
+    .uniforms = {"blood/blood_uniforms.glsl", "BloodUniforms", sizeof(shared::BloodUniforms), fields, write},
+    .textures = 3,
+    .bind = bind,
+    .reads = reads,
+};
+
 }  // namespace
+
+constinit const SettingId blood_colour = Own("colour");
+constinit const SettingId blood_table_nodes = Own("table_nodes");
 
 const Effect blood_effect = {
     .name = "blood",
@@ -107,7 +138,7 @@ const Effect blood_effect = {
     .stage = Stage::light,
     .character_need = need,
     .declare = declare,
-    .studies = studies,
+    .shading = &shading,
     .hard_cases = hard_cases,
 };
 

@@ -5,8 +5,9 @@
 
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
-#include "runtime/measure/camera_studies.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -20,6 +21,7 @@ constexpr std::array<Setting, 3> settings = {{
      .highest = 0.5,
      .default_number = 0.06},
 }};
+using Own = OwnSetting<bloom_effect, settings>;
 
 constexpr std::size_t most_levels = 8;
 
@@ -31,9 +33,7 @@ struct Bloom {
     ResourceId result{};
 };
 
-double number(const FrameState& frame, std::string_view setting) {
-    return frame.settings.number(bloom_effect.name, setting);
-}
+double number(const FrameState& frame, Own setting) { return frame.settings.number(setting); }
 
 Need need(const FrameState& frame) {
     if (number(frame, "strength") == 0) {
@@ -134,7 +134,6 @@ const Effect bloom_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = bloom_studies,
     .hard_cases = hard_cases,
 };
 

@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include "rig/head/material_kind.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -33,6 +34,7 @@ constexpr std::array<Setting, 5> settings = {{
      .default_number = 0.03},
     {"samples", "pixels that each one gathers: 25 (coarse discs), 49 or 81", sample_choices, 1},
 }};
+using Own = OwnSetting<depth_of_field_effect, settings>;
 
 struct DepthOfField {
     gl::Program circles, circles_multisampled, tiles, gather;
@@ -43,9 +45,7 @@ struct DepthOfField {
     ResourceId from{}, radius{}, in_front{}, to{};
 };
 
-double number(const FrameState& frame, std::string_view setting) {
-    return frame.settings.number(depth_of_field_effect.name, setting);
-}
+double number(const FrameState& frame, Own setting) { return frame.settings.number(setting); }
 
 /// Distance along the camera's axis of a character's corneas; without eyes, of the face's middle.
 double eyes_mm(const FrameState& frame, const CharacterState& character) {
@@ -149,7 +149,7 @@ void gather(FrameState& frame, const FrameGraph& graph) {
     bind_texture(graph, 0, own.from);
     bind_texture(graph, 1, own.radius);
     bind_texture(graph, 2, own.in_front);
-    const std::uint8_t samples = frame.settings.choice(depth_of_field_effect.name, "samples");
+    const std::uint8_t samples = frame.settings.choice(Own("samples"));
     if (own.taps.empty() || own.samples != samples) own.taps = blur_taps(sample_counts[samples]);
     own.samples = samples;
     const std::vector<glm::vec2>& taps = own.taps;
@@ -221,7 +221,6 @@ const Effect depth_of_field_effect = {
     .stage = Stage::scene,
     .need = need,
     .declare = declare,
-    .studies = depth_of_field_studies,
     .hard_cases = hard_cases,
 };
 

@@ -3,9 +3,10 @@
 
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/camera_studies.h"
 
 namespace blush {
 namespace {
@@ -39,6 +40,7 @@ constexpr std::array<Setting, 7> settings = {{
      .highest = 100,
      .default_number = 0.5},
 }};
+using Own = OwnSetting<exposure_effect, settings>;
 
 struct Exposure {
     gl::Program cells_program, adapt_program;
@@ -49,15 +51,15 @@ struct Exposure {
     ResourceId cells{};
 };
 
-double number(const FrameState& frame, std::string_view setting) {
-    return frame.settings.number(exposure_effect.name, setting);
-}
+double number(const FrameState& frame, Own setting) { return frame.settings.number(setting); }
+
+void find_facts(FrameState& frame) { frame.exposure_stops = number(frame, "stops"); }
 
 Need need(const FrameState& frame) {
     const auto off = [](std::string_view reason) {
         return Need{.on = false, .reason = reason, .can_be_forced = false};
     };
-    if (frame.settings.choice(exposure_effect.name, "mode") == 0) return off("exposure.mode is fixed");
+    if (frame.settings.choice(Own("mode")) == 0) return off("exposure.mode is fixed");
     if (frame.view->output == Output::linear_hdr) return off("the view asks for radiance, which has no exposure");
     return {.on = true, .reason = "exposure.mode is automatic"};
 }
@@ -68,19 +70,19 @@ void meter(FrameState& frame, const FrameGraph& graph, ResourceId from) {
     glUseProgram(own.cells_program.name());
     glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[from].handle);
     glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
-    glUniform1i(0, frame.settings.choice(exposure_effect.name, "metering"));
+    glUniform1i(0, frame.settings.choice(Own("metering")));
     draw_screen(frame);
 }
 
 void adapt(FrameState& frame, const FrameGraph& graph) {
     Exposure& own = frame.own<Exposure>();
-    bind_output(frame, graph, frame.resources.log2_exposure);
+    bind_output(frame, graph, *frame.resources.log2_exposure);
     glUseProgram(own.adapt_program.name());
     glBindTextureUnit(0, graph[own.cells].handle);
     glBindTextureUnit(1, own.log2_exposure[1 - own.now].name());
     glBindSampler(0, 0);
     glBindSampler(1, 0);
-    const auto value = [&frame](std::string_view setting) { return static_cast<float>(number(frame, setting)); };
+    const auto value = [&frame](Own setting) { return static_cast<float>(number(frame, setting)); };
     glUniform3f(0, value("key"), value("stops"), value("range_stops"));
     glUniform3f(1, static_cast<float>(own.passed_seconds), value("darker_half_life"), value("brighter_half_life"));
     draw_screen(frame);
@@ -114,7 +116,7 @@ void declare(FrameState& frame) {
     frame.graph.pass("meter", metered).reads(frame.resources.scene_color).writes(own.cells);
     frame.graph.pass("adapt exposure", [&frame](const FrameGraph& graph) { adapt(frame, graph); })
         .reads(own.cells)
-        .writes(frame.resources.log2_exposure);
+        .writes(*frame.resources.log2_exposure);
 }
 
 constexpr std::array<HardCase, 3> hard_cases = {{
@@ -137,9 +139,9 @@ const Effect exposure_effect = {
     .settings = settings,
     .owner = SettingOwner::view,
     .stage = Stage::scene,
+    .find_facts = find_facts,
     .need = need,
     .declare = declare,
-    .studies = exposure_studies,
     .hard_cases = hard_cases,
 };
 

@@ -2,8 +2,9 @@
 
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
-#include "runtime/measure/camera_studies.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -15,14 +16,13 @@ constexpr std::array<Setting, 3> settings = {{
     {.name = "size", .meaning = "of a grain, pixels", .lowest = 1, .highest = 16, .default_number = 1},
     {.name = "seed", .meaning = "of the pattern; a whole number", .highest = 65535},
 }};
+using Own = OwnSetting<film_grain_effect, settings>;
 
 struct FilmGrain {
     gl::Program program;
 };
 
-double number(const FrameState& frame, std::string_view setting) {
-    return frame.settings.number(film_grain_effect.name, setting);
-}
+double number(const FrameState& frame, Own setting) { return frame.settings.number(setting); }
 
 Need need(const FrameState& frame) {
     const auto off = [](std::string_view reason) {
@@ -65,7 +65,6 @@ const Effect film_grain_effect = {
     .stage = Stage::display,
     .need = need,
     .declare = declare,
-    .studies = film_grain_studies,
     .hard_cases = hard_cases,
 };
 

@@ -2,9 +2,10 @@
 
 #include <array>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -18,13 +19,14 @@ constexpr std::array<Setting, 1> settings = {{
      "smooth once shown; auto: hdr for a display, average of a view that asks for radiance",
      resolve_choices, static_cast<std::uint8_t>(Resolve::of_the_view)},
 }};
+using Own = OwnSetting<multisampling_effect, settings>;
 
 struct Multisampling {
     gl::Program program;
 };
 
 Resolve resolve_of(const FrameState& frame) {
-    const auto wanted = static_cast<Resolve>(frame.settings.choice("multisampling", "resolve"));
+    const auto wanted = static_cast<Resolve>(frame.settings.choice(Own("resolve")));
     if (wanted != Resolve::of_the_view) return wanted;
     return frame.view->output == Output::display_srgb ? Resolve::hdr : Resolve::average;
 }
@@ -76,20 +78,6 @@ void declare(FrameState& frame) {
     }
 }
 
-/// The settings of the study of antialiasing compare both ways to resolve with everything else.
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {{
-        {.label = "antialiasing.mode=none", .work = "one sample", .mode = "none"},
-        {.label = "multisampling.resolve=average",
-         .work = "4 samples",
-         .mode = "msaa4",
-         .setting = "multisampling.resolve",
-         .choice = "average"},
-        {.label = "multisampling.resolve=hdr", .work = "4 samples", .mode = "msaa4", .is_default = true},
-    }};
-    return antialiasing_studies(device, face, modes);
-}
-
 constexpr std::array<HardCase, 2> hard_cases = {{
     {"light beyond half precision behind the face", "the resolve stays finite", [](Face&) {}, 1,
      [](ViewFrame& view) {
@@ -111,7 +99,6 @@ const Effect multisampling_effect = {
     .stage = Stage::resolve,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -1,10 +1,12 @@
 /// Normals after the deformation: the targets' own NORMAL deltas, or turned with the deformed surface.
 
+#include <algorithm>
 #include <array>
 
+#include "runtime/effects/effects.h"
+#include "runtime/effects/normals.h"
 #include "runtime/frame/frame.h"
-#include "runtime/measure/errors.h"
-#include "runtime/measure/study_scene.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -17,6 +19,19 @@ constexpr std::array<Setting, 1> settings = {{
      "turned with the deformed surface everywhere",
      source_choices, static_cast<std::uint8_t>(NormalMethod::authored)},
 }};
+using Own = OwnSetting<normals_effect, settings>;
+
+void find_facts(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        const AssetState& asset = character->facts_of_face;
+        character->normal_method = normal_method_of(*character);
+        const auto& needs = character->normal_method == NormalMethod::authored ? asset.target_needs_turned_normals
+                                                                               : asset.target_moves_normals;
+        character->facts.any_turned_normals = std::ranges::any_of(needs, [](std::uint8_t turns) { return turns != 0; });
+        character->facts.active_need_turned_normals = std::ranges::any_of(
+            character->active(), [&](const ActiveTarget& entry) { return needs[entry.target] != 0; });
+    }
+}
 
 Need need(const FrameState& /*frame*/, const CharacterState& character) {
     if (!character.facts.any_turned_normals) {
@@ -49,45 +64,6 @@ void declare(FrameState& frame) {
             .modifies(character->resources.normals)
             .modifies(character->resources.tangents);
     }
-}
-
-Study study_of(const Device& device, const Face& face, std::size_t active) {
-    std::shared_ptr<StudyScene> scene = make_study_scene(device, face, active);
-    Study study{std::to_string(active) + " of " + std::to_string(face.targets.size()) + " targets active, " +
-                    std::to_string(face.positions.size()) + " vertices",
-                "normals recomputed on the deformed mesh in double precision (rig/deform/deform_exact.h)",
-                "degrees",
-                {},
-                scene};
-    if (!scene) return study;
-    for (const NormalMethod method : {NormalMethod::authored, NormalMethod::recomputed}) {
-        const std::string_view choice = source_choices[static_cast<std::size_t>(method)];
-        Variant variant;
-        variant.label = "normals.source=" + std::string(choice);
-        variant.is_default = method == NormalMethod::authored;
-        const bool turns =
-            method == NormalMethod::recomputed || std::ranges::any_of(face.primitives, [](const Primitive& primitive) {
-                return primitive.normal_source == NormalSource::recomputed;
-            });
-        variant.work = turns ? "deformation, and the fan of every moved vertex" : "deformation with normal deltas";
-        variant.run = [scene, method, turns] {
-            scene->stream_out().add_targets_sparse(method);
-            if (turns) scene->stream_out().turn_normals(method);
-            glFinish();
-        };
-        variant.error = [scene, choice] {
-            const Status chosen = scene->character.set("normals.source", choice);
-            return chosen ? angle_error(scene->read().normals, scene->exact.normals) : Variant::Error{};
-        };
-        study.variants.push_back(std::move(variant));
-    }
-    return study;
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool quick) {
-    std::vector<Study> result;
-    for (const std::size_t count : study_counts(face, quick)) result.push_back(study_of(device, face, count));
-    return result;
 }
 
 /// Adds a target that moves every vertex to centre + factor * (vertex - centre), without NORMAL deltas.
@@ -128,13 +104,17 @@ constexpr std::array<HardCase, 5> hard_cases = {{
 
 }  // namespace
 
+NormalMethod normal_method_of(const CharacterState& character) {
+    return static_cast<NormalMethod>(character.settings.choice(Own("source")));
+}
+
 const Effect normals_effect = {
     .name = "normals",
     .what = "normals follow the deformed surface",
     .settings = settings,
+    .find_facts = find_facts,
     .character_need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -2,15 +2,19 @@
 /// (shaders/draw/eye.glsl, mouth.glsl, hair.glsl). None of them gives light to the skin's diffusion or takes any from
 /// it.
 
-#include "runtime/effects/parts.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "rig/head/eye_sockets.h"
-#include "runtime/frame/effect.h"
-#include "runtime/measure/frame_study.h"
+#include "runtime/effects/effects.h"
+#include "runtime/frame/frame_state.h"
+#include "runtime/frame/own_setting.h"
+#include "runtime/gl/shared_blocks.h"
+
+namespace blush::shared {
+#include "shaders/draw/parts_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -38,6 +42,7 @@ constexpr std::array<Setting, 6> settings = {{
      .highest = 0.6,
      .default_number = 0.14},
 }};
+using Own = OwnSetting<parts_effect, settings>;
 
 struct Parts {
     bool known = false;
@@ -83,16 +88,6 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
     return {.on = true, .reason = "the face has eyes, a mouth or hair"};
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    std::vector<Study> both;
-    for (const char* setting : {"parts.eyes", "parts.hair"}) {
-        const std::string own = std::string(setting) == "parts.eyes" ? "wet" : "strands";
-        auto one = frame_study(device, face, millimetres_a_unit, {setting, {own, "plain"}, 0, own, nullptr});
-        std::ranges::move(one, std::back_inserter(both));
-    }
-    return both;
-}
-
 /// Names the test face's only material as a part.
 template <int Kind>
 void name_part(Face& face) {
@@ -112,46 +107,40 @@ constexpr std::array<HardCase, 4> hard_cases = {{
      }},
 }};
 
-}  // namespace
-
-std::uint32_t parts_bits(const CharacterState& character) {
-    std::uint32_t bits = shade_mouth;
-    if (character.settings.choice(parts_effect.name, "eyes") == 0) bits |= shade_eye;
-    if (character.settings.choice(parts_effect.name, "hair") == 0) bits |= shade_hair;
-    return bits;
-}
-
-void write_parts(CharacterState& character, shared::FrameBlock& block) {
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    auto& out = *static_cast<shared::PartsUniforms*>(to);
     const Parts& own = parts_of(character);
-    const auto number = [&character](std::string_view setting) {
-        return static_cast<float>(character.settings.number(parts_effect.name, setting));
-    };
-    block.parts = {number("lid_shade"), own.cornea_of_its_own ? 0 : number("iris_depth"), number("mouth_shade"),
-                   number("tear_roughness")};
+    const auto number = [&character](Own setting) { return static_cast<float>(character.settings.number(setting)); };
+    out.lid_shade = number("lid_shade");
+    out.iris_depth = own.cornea_of_its_own ? 0 : number("iris_depth");
+    out.mouth_shade = number("mouth_shade");
+    out.tear_roughness = number("tear_roughness");
     if (own.mouth_front) {
         const glm::mat4& world = character.shading_from_node[own.mouth_node];
         const glm::vec3 forward(world[2]);
         const float length = glm::length(forward);
-        block.mouth_front = world * glm::vec4(*own.mouth_front, 1);
-        block.mouth_forward = glm::vec4(length > 0 ? forward / length : glm::vec3(0, 0, 1), 0);
+        out.mouth_front = world * glm::vec4(*own.mouth_front, 1);
+        out.mouth_forward = glm::vec4(length > 0 ? forward / length : glm::vec3(0, 0, 1), 0);
     }
     const EyeSockets& sockets = character.facts_of_face.eye_sockets;
     if (sockets.eyes.size() != 2) return;
-    block.eye_data = {1, static_cast<int>(sockets.eyes[0].pole), static_cast<int>(sockets.eyes[1].pole),
-                      sockets.lids.size() == 2 ? 1 : 0};
+    out.eyes_known = 1;
+    out.first_pole = static_cast<int>(sockets.eyes[0].pole);
+    out.second_pole = static_cast<int>(sockets.eyes[1].pole);
+    out.lids_known = sockets.lids.size() == 2 ? 1 : 0;
     for (std::size_t e = 0; e < 2; ++e) {
         const Eyeball& eye = sockets.eyes[e];
         const glm::mat4& world = character.shading_from_node[eye.node];
-        block.eyes[e] = world * glm::vec4(eye.centre, 1);
-        block.eyes[e].w = eye.radius * glm::length(glm::vec3(world[0]));
+        out.eyes[e] = world * glm::vec4(eye.centre, 1);
+        out.eyes[e].w = eye.radius * glm::length(glm::vec3(world[0]));
     }
     if (sockets.lids.size() != 2) return;
-    block.world_from_lids = character.shading_from_node[sockets.lid_node];
+    out.world_from_lids = character.shading_from_node[sockets.lid_node];
     for (std::size_t e = 0; e < 2; ++e) {
         for (std::size_t k = 0; k < lid_point_count; ++k) {
             const auto set = [&](std::size_t lid, std::uint32_t vertex) {
                 const std::size_t at = (2 * e + lid) * lid_point_count + k;
-                block.lid_points[at / 4][static_cast<glm::length_t>(at % 4)] = static_cast<int>(vertex);
+                out.lid_points[at / 4][static_cast<glm::length_t>(at % 4)] = static_cast<int>(vertex);
             };
             set(0, sockets.lids[e].upper[k]);
             set(1, sockets.lids[e].lower[k]);
@@ -159,13 +148,43 @@ void write_parts(CharacterState& character, shared::FrameBlock& block) {
     }
 }
 
+bool gives_model(const CharacterState& character, MaterialKind kind) {
+    if (kind == MaterialKind::eye) return character.settings.choice(Own("eyes")) == 0;
+    return kind != MaterialKind::hair || character.settings.choice(Own("hair")) == 0;
+}
+
+void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t /*unit*/) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BLUSH_SURFACE_POSITIONS_BINDING, character.surface->positions.name());
+}
+
+constexpr std::array<UniformField, 12> fields = {{{"lid_shade", offsetof(shared::PartsUniforms, lid_shade)},
+                                                  {"iris_depth", offsetof(shared::PartsUniforms, iris_depth)},
+                                                  {"mouth_shade", offsetof(shared::PartsUniforms, mouth_shade)},
+                                                  {"tear_roughness", offsetof(shared::PartsUniforms, tear_roughness)},
+                                                  {"mouth_front", offsetof(shared::PartsUniforms, mouth_front)},
+                                                  {"mouth_forward", offsetof(shared::PartsUniforms, mouth_forward)},
+                                                  {"eyes[0]", offsetof(shared::PartsUniforms, eyes)},
+                                                  {"world_from_lids", offsetof(shared::PartsUniforms, world_from_lids)},
+                                                  {"eyes_known", offsetof(shared::PartsUniforms, eyes_known)},
+                                                  {"second_pole", offsetof(shared::PartsUniforms, second_pole)},
+                                                  {"lids_known", offsetof(shared::PartsUniforms, lids_known)},
+                                                  {"lid_points[0]", offsetof(shared::PartsUniforms, lid_points)}}};
+constexpr ShadingPart shading = {
+    .materials = materials_of(MaterialKind::eye, MaterialKind::mouth, MaterialKind::hair),
+    .gives_model = gives_model,
+    .uniforms = {"draw/parts_uniforms.glsl", "PartsUniforms", sizeof(shared::PartsUniforms), fields, write},
+    .bind = bind,
+};
+
+}  // namespace
+
 const Effect parts_effect = {
     .name = "parts",
     .what = "eyes, mouth and hair are shaded each in their own way",
     .settings = settings,
     .stage = Stage::light,
     .character_need = need,
-    .studies = studies,
+    .shading = &shading,
     .hard_cases = hard_cases,
 };
 

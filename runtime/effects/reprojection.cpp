@@ -5,9 +5,11 @@
 #include <array>
 
 #include "runtime/antialias/last_frame.h"
+#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -28,6 +30,7 @@ constexpr std::array<Setting, 2> settings = {{
      "none: equation 10.6 alone, which leaves ghosts of what starts to move, or moves by less than a pixel",
      rejection_choices, 0},
 }};
+using Own = OwnSetting<reprojection_effect, settings>;
 
 struct Reprojection {
     gl::Program program;
@@ -37,7 +40,7 @@ Need need(const FrameState& frame) {
     const auto off = [](std::string_view reason) {
         return Need{.on = false, .reason = reason, .can_be_forced = false};
     };
-    const auto mode = static_cast<AntialiasingMode>(frame.settings.choice("antialiasing", "mode"));
+    const auto mode = static_cast<AntialiasingMode>(frame.settings.choice(antialiasing_mode));
     const bool asked = mode == AntialiasingMode::smaa_t2x || mode == AntialiasingMode::smaa_4x;
     if (!asked) return off("antialiasing.mode takes nothing from the last frame");
     if (!frame.facts.on_screen) return off(nothing_to_draw(frame.facts));
@@ -54,7 +57,7 @@ void reproject(FrameState& frame, const FrameGraph& graph, ResourceId from, Reso
     const KeptImage& before = last.images[1 - last.phase];
     const bool moves = frame.on(velocities_effect);
     // Forced velocities of what stands still are zero, and nothing is uncovered.
-    const bool rejects = moves && frame.facts.moves && frame.settings.choice("reprojection", "rejection") == 0;
+    const bool rejects = moves && frame.facts.moves && frame.settings.choice(Own("rejection")) == 0;
     bind_output(frame, graph, to);
     glUseProgram(frame.own<Reprojection>().program.name());
     glBindTextureUnit(0, graph[from].handle);
@@ -69,7 +72,7 @@ void reproject(FrameState& frame, const FrameGraph& graph, ResourceId from, Reso
         glBindSampler(4, 0);
     }
     if (rejects) glBindTextureUnit(5, before.depth.name());
-    glUniform1f(0, static_cast<float>(frame.settings.number("reprojection", "falloff")));
+    glUniform1f(0, static_cast<float>(frame.settings.number(Own("falloff"))));
     glUniform1i(1, frame.view->output == Output::display_srgb ? 1 : 0);
     glUniform1i(2, moves ? 1 : 0);
     glUniform1i(3, before.has_speeds ? 1 : 0);
@@ -85,19 +88,6 @@ void declare(FrameState& frame) {
     };
     frame.graph.pass("reproject", pass).reads(images.from).writes(images.to);
     if (frame.on(velocities_effect)) frame.graph.reads(frame.resources.velocities).reads(frame.resources.speeds);
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {{
-        {.label = "antialiasing.mode=smaa_1x", .work = "one frame alone", .mode = "smaa_1x"},
-        {.label = "antialiasing.mode=smaa_t2x",
-         .work = "two frames",
-         .mode = "smaa_t2x",
-         .frames = 2,
-         .is_default = true},
-        {.label = "antialiasing.mode=smaa_4x", .work = "two frames of two pictures", .mode = "smaa_4x", .frames = 2},
-    }};
-    return antialiasing_studies(device, face, modes);
 }
 
 constexpr std::array<HardCase, 1> hard_cases = {{
@@ -117,7 +107,6 @@ const Effect reprojection_effect = {
     .stage = Stage::history,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -5,9 +5,16 @@
 #include <cassert>
 
 #include "rig/light/separable_kernel.h"
+#include "runtime/effects/effects.h"
 #include "runtime/effects/scattering.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
+#include "runtime/gl/shared_blocks.h"
 #include "runtime/light/scatter_projection.h"
+
+namespace blush::shared {
+#include "shaders/light/scattering_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -60,6 +67,7 @@ constexpr std::array<Setting, 14> settings = {{
      SettingOwner::character},
     {"millimetres_a_unit", "scale of the face; 0: found from its size", {}, 0, 0, 1e6, 0, SettingOwner::character},
 }};
+using Own = OwnSetting<scattering_effect, settings>;
 
 /// What decides a character's kernel.
 struct Profile {
@@ -84,19 +92,17 @@ struct State {
     ResourceId first_image{}, second{}, third{}, stencil{}, scene{};
 };
 
-double number(const CharacterState& character, std::string_view setting) {
-    return character.settings.number("scattering", setting);
-}
+double number(const CharacterState& character, Own setting) { return character.settings.number(setting); }
 
 ScatterMethod method_of(const FrameState& frame) {
-    return static_cast<ScatterMethod>(frame.settings.choice("scattering", "method"));
+    return static_cast<ScatterMethod>(frame.settings.choice(Own("method")));
 }
 
-bool of_skin(const CharacterState& character) { return character.settings.choice("scattering", "material") == 0; }
+bool of_skin(const CharacterState& character) { return character.settings.choice(Own("material")) == 0; }
 
 /// Eq. 6.1 is a fit to skin: what else light scatters in has its profile's integral.
 bool is_fitted(const FrameState& frame, const CharacterState& character) {
-    return of_skin(character) && frame.settings.choice("scattering", "kernel") == 1;
+    return of_skin(character) && frame.settings.choice(Own("kernel")) == 1;
 }
 
 /// The width that the settings ask for, 1 for the profile's own millimetres.
@@ -145,7 +151,7 @@ void list_characters(FrameState& frame, State& own) {
     double reference_mm_a_unit = 0;
     for (const CharacterState* character : frame.characters) {
         if (!character->skin.on_screen) continue;
-        const Profile profile{scatter_kernel_shape(*character), character->settings.choice("scattering", "material")};
+        const Profile profile{scatter_kernel_shape(*character), character->settings.choice(Own("material"))};
         const auto found = std::ranges::find(own.profiles, profile);
         const auto index = static_cast<std::uint32_t>(found - own.profiles.begin());
         if (found == own.profiles.end()) {
@@ -158,9 +164,11 @@ void list_characters(FrameState& frame, State& own) {
     }
 }
 
+std::uint32_t samples_of(const FrameState& frame) { return 9U + 8U * frame.settings.choice(Own("samples")); }
+
 const std::vector<std::vector<KernelTap>>& separable_kernels(FrameState& frame, State& own) {
-    const std::uint32_t samples = 9U + 8U * frame.settings.choice("scattering", "samples");
-    const std::uint8_t kernel = frame.settings.choice("scattering", "kernel");
+    const std::uint32_t samples = samples_of(frame);
+    const std::uint8_t kernel = frame.settings.choice(Own("kernel"));
     if (own.samples == samples && own.kernel == kernel && own.kernel_profiles == own.profiles) return own.kernels;
     own.samples = samples;
     own.kernel = kernel;
@@ -187,9 +195,9 @@ const std::vector<JitteredKernel>& jittered_kernels(State& own) {
 
 ScatterInput input_of(FrameState& frame, const State& own, const FrameGraph& graph) {
     ScatterInput input;
-    input.light = graph[frame.resources.skin_light].handle;
-    input.albedo = graph[frame.resources.skin_albedo].handle;
-    input.depth = graph[frame.resources.skin_depth].handle;
+    input.light = graph[frame.target(scattering_effect, 0)].handle;
+    input.albedo = graph[frame.target(scattering_effect, 1)].handle;
+    input.depth = graph[frame.target(scattering_effect, 2)].handle;
     input.width = frame.view->width;
     input.height = frame.view->height;
     if (own.characters.empty()) return input;  // forced on
@@ -254,10 +262,13 @@ void declare(FrameState& frame) {
     stencil.format = PixelFormat::stencil8;
     const ScatterMethod method = method_of(frame);
     own.scene = frame.resources.scene_color;
+    // One character of a scene may come to be seen alone, or with others.
+    own.passes.require(method, samples_of(frame), false);
+    if (frame.characters.size() > 1) own.passes.require(method, samples_of(frame), true);
     frame.graph.pass("scatter", [&frame](const FrameGraph& graph) { scatter(frame, graph); })
-        .reads(frame.resources.skin_light)
-        .reads(frame.resources.skin_albedo)
-        .reads(frame.resources.skin_depth);
+        .reads(frame.target(scattering_effect, 0))
+        .reads(frame.target(scattering_effect, 1))
+        .reads(frame.target(scattering_effect, 2));
     if (method != ScatterMethod::jittered) {
         own.first_image = frame.graph.texture("scattered light", half);
         frame.graph.writes(own.first_image);
@@ -299,10 +310,37 @@ constexpr std::array<HardCase, 6> hard_cases = {{
      [](ViewFrame& view) { view.width = view.height = 1; }},
 }};
 
+void find_facts(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        const double set = number(*character, "millimetres_a_unit");
+        if (set > 0) character->millimetres_a_unit = set / character->scale_of_place;
+    }
+}
+
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    static_cast<shared::ScatteringUniforms*>(to)->albedo_before =
+        static_cast<float>(number(character, "albedo_before"));
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"output"};
+constexpr std::array<UniformField, 1> fields = {
+    {{"albedo_before", offsetof(shared::ScatteringUniforms, albedo_before)}}};
+/// Light that scatters, the albedo that it leaves by, its depth and its character, each times the skin's matte.
+constexpr std::array<ShadingTarget, 3> targets = {{{"skin light", "skin light, multisampled"},
+                                                   {"skin albedo", "skin albedo, multisampled"},
+                                                   {"skin depth", "skin depth, multisampled", PixelFormat::rg32f}}};
+constexpr ShadingPart shading = {
+    .output_file = "light/skin_targets.glsl",
+    .hooks = hooks,
+    .uniforms = {"light/scattering_uniforms.glsl", "ScatteringUniforms", sizeof(shared::ScatteringUniforms), fields,
+                 write},
+    .targets = targets,
+};
+
 }  // namespace
 
 std::span<const GaussianTerm> scatter_profile(const CharacterState& character) {
-    const std::uint8_t material = character.settings.choice(scattering_effect.name, "material");
+    const std::uint8_t material = character.settings.choice(Own("material"));
     if (material == 0) return skin_six_gaussians();
     static std::array<std::vector<GaussianTerm>, material_choices.size()> fitted = [] {
         std::array<std::vector<GaussianTerm>, material_choices.size()> made;
@@ -326,7 +364,7 @@ KernelShape scatter_kernel_shape(const CharacterState& character) {
 double scatter_follow_mm(const FrameState& frame, const CharacterState& character) {
     // Listing 6 fades a tap out at 300 * 1 / tan(fov / 2) * width of depth: for 20 degrees and a width of 0.014 at 42
     // thousandths of a head, 10 mm, three times the kernel's range.
-    const bool follows = frame.settings.choice("scattering", "follow_surface") == 0;
+    const bool follows = frame.settings.choice(Own("follow_surface")) == 0;
     return follows ? 3 * kernel_range_mm(scatter_kernel_shape(character)) : 0;
 }
 
@@ -336,9 +374,10 @@ const Effect scattering_effect = {
     .settings = settings,
     .owner = SettingOwner::view,
     .stage = Stage::scene,
+    .find_facts = find_facts,
     .need = need,
     .declare = declare,
-    .studies = scattering_studies,
+    .shading = &shading,
     .hard_cases = hard_cases,
 };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rig/light/separable_kernel.h"
-#include "runtime/frame/effect.h"
+#include "runtime/effects/effects.h"
 #include "runtime/frame/frame_state.h"
 #include "runtime/light/scatter_passes.h"
 
@@ -22,6 +22,5 @@ std::span<const GaussianTerm> scatter_profile(const CharacterState& character);
 KernelShape scatter_kernel_shape(const CharacterState& character);
 /// Step of depth that light does not cross; 0: it crosses all.
 double scatter_follow_mm(const FrameState& frame, const CharacterState& character);
-std::vector<Study> scattering_studies(const Device& device, const Face& face, double millimetres_a_unit, bool quick);
 
 }  // namespace blush

@@ -5,9 +5,11 @@
 #include "runtime/draw/draw_casters.h"
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
+#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/light/shadow_maps.h"
-#include "runtime/measure/frame_study.h"
 
 namespace blush {
 namespace {
@@ -22,9 +24,10 @@ constexpr std::array<Setting, 3> settings = {{
     {"edges", "soft: as wide as the light's size and the distance of what casts them make them; sharp: as the map is",
      edge_choices, 0},
 }};
+using Own = OwnSetting<shadows_effect, settings>;
 
 Need need(const FrameState& frame) {
-    if (frame.scene->settings.choice("shadows", "method") == 1) {
+    if (frame.scene->settings.choice(Own("method")) == 1) {
         return {.on = false, .reason = "shadows.method is off", .can_be_forced = false};
     }
     if (frame.lights.empty()) return {.on = false, .reason = "no light shines", .can_be_forced = false};
@@ -69,7 +72,7 @@ void draw_maps(FrameState& frame) {
     glClearNamedFramebufferfv(maps.framebuffer.name(), GL_DEPTH, 0, &far_depth);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP);  // what stands before or behind the map's range still casts
-    for (const Casters casters : {Casters::solid, Casters::hair}) {
+    for (const Casters casters : all_casters) {
         for (const ShadowMaps::Map& map : maps.maps) {
             const auto side = static_cast<GLsizei>(map.tile.side);
             glViewport(static_cast<GLint>(map.tile.x), static_cast<GLint>(map.tile.y), side, side);
@@ -94,20 +97,6 @@ void declare(FrameState& frame) {
     frame.graph.pass("shadow maps", [&frame](const FrameGraph&) { draw_maps(frame); });
     for (const CharacterState* character : frame.characters) frame.graph.reads(character->resources.positions);
     frame.graph.writes(frame.resources.shadow_maps);
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    std::vector<Study> result = frame_study(device, face, millimetres_a_unit,
-                                            {"shadows.size", {"512", "1024", "2048"}, 1, "2048", &study_backlight()});
-    for (Study& study : frame_study(device, face, millimetres_a_unit,
-                                    {"shadows.edges", {"soft", "sharp"}, 0, "soft", &study_backlight()})) {
-        result.push_back(std::move(study));
-    }
-    for (Study& study : frame_study(device, face, millimetres_a_unit,
-                                    {"shadows.method", {"maps", "off"}, 0, "maps", &study_backlight()})) {
-        result.push_back(std::move(study));
-    }
-    return result;
 }
 
 const Lighting& light_inside() {
@@ -153,7 +142,34 @@ constexpr std::array<HardCase, 3> hard_cases = {{
      [](ViewFrame& view) { view.lighting = &odd_lights(); }},
 }};
 
+/// Maps that stand are read without being drawn.
+bool takes_part(const FrameState& /*frame*/, const CharacterState& character) { return character.shadow_lights > 0; }
+
+void bind(FrameState& frame, CharacterState& /*character*/, std::uint32_t unit) {
+    const auto& maps = frame.scene->own<ShadowMaps>();
+    glBindTextureUnit(unit, maps.depth.name());
+    glBindSampler(unit, maps.nearest.name());
+}
+
+void reads(FrameState& frame) {
+    if (frame.on(shadows_effect)) frame.graph.reads(frame.resources.shadow_maps);
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"lit"};
+constexpr ShadingPart shading = {
+    .file = "light/shadow.glsl",
+    .hooks = hooks,
+    .takes_part = takes_part,
+    .textures = 1,
+    .bind = bind,
+    .reads = reads,
+};
+
 }  // namespace
+
+constinit const SettingId shadows_method = Own("method");
+constinit const SettingId shadows_size = Own("size");
+constinit const SettingId shadows_edges = Own("edges");
 
 const Effect shadows_effect = {
     .name = "shadows",
@@ -161,9 +177,10 @@ const Effect shadows_effect = {
     .settings = settings,
     .owner = SettingOwner::scene,
     .stage = Stage::light,
+    .find_in_view = place_shadow_maps,
     .need = need,
     .declare = declare,
-    .studies = studies,
+    .shading = &shading,
     .hard_cases = hard_cases,
 };
 

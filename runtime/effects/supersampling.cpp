@@ -8,9 +8,11 @@
 
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
+#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/measure/antialiasing_study.h"
+#include "runtime/frame/own_setting.h"
 
 namespace blush {
 namespace {
@@ -23,6 +25,7 @@ constexpr std::array<Setting, 1> settings = {{
      .highest = 16,
      .default_number = 4},
 }};
+using Own = OwnSetting<supersampling_effect, settings>;
 
 struct Supersampling {
     gl::Program program;
@@ -68,19 +71,6 @@ void declare(FrameState& frame) {
     frame.resources.speeds = to;
 }
 
-std::vector<Study> studies(const Device& device, const Face& face, double /*millimetres_a_unit*/, bool /*quick*/) {
-    constexpr std::array<StudiedMode, 3> modes = {{
-        {.label = "antialiasing.mode=none", .work = "1 picture", .mode = "none"},
-        {.label = "supersampling.factor=2",
-         .work = "4 pictures",
-         .mode = "supersampled",
-         .setting = "supersampling.factor",
-         .choice = "2"},
-        {.label = "supersampling.factor=4", .work = "16 pictures", .mode = "supersampled", .is_default = true},
-    }};
-    return antialiasing_studies(device, face, modes);
-}
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a face that is not there", "every picture is the background, and so is their mean",
      [](Face& face) {
@@ -90,6 +80,8 @@ constexpr std::array<HardCase, 1> hard_cases = {{
 
 }  // namespace
 
+constinit const SettingId supersampling_factor = Own("factor");
+
 const Effect supersampling_effect = {
     .name = "supersampling",
     .what = "several pictures a frame are averaged",
@@ -98,7 +90,6 @@ const Effect supersampling_effect = {
     .stage = Stage::average,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -6,9 +6,11 @@
 #include "runtime/antialias/last_frame.h"
 #include "runtime/draw/draw_face.h"
 #include "runtime/draw/hair_core.h"
+#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/own_setting.h"
 #include "runtime/gl/shared_blocks.h"
-#include "runtime/measure/antialiasing_study.h"
 
 namespace blush {
 namespace {
@@ -20,6 +22,7 @@ constexpr std::array<Setting, 1> settings = {{
      "stand alone",
      source_choices, 0},
 }};
+using Own = OwnSetting<velocities_effect, settings>;
 
 struct Velocities {
     std::array<gl::Program, 2> programs;  // [with alpha test]
@@ -29,12 +32,13 @@ struct Velocities {
 };
 
 Need need(const FrameState& frame) {
-    if (!frame.sampling.temporal) {
-        return {.on = false, .reason = "nothing takes from the last frame", .can_be_forced = false};
+    if (!compares_frames(frame, *frame.view)) {
+        return {.on = false, .reason = "nothing asks how the picture moved", .can_be_forced = false};
     }
     if (!frame.facts.has_last_frame) {
         return {.on = false, .reason = "there is no last frame of this size and mode", .can_be_forced = false};
     }
+    if (frame.view->velocity_framebuffer != 0) return {.on = true, .reason = "the host asks how the picture moves"};
     if (!frame.facts.moves) return {.on = false, .reason = "nothing moves: every velocity is zero"};
     return {.on = true, .reason = "the face or the camera moved since the last frame"};
 }
@@ -63,14 +67,15 @@ void set_matrix(GLint location, const glm::dmat4& matrix) {
 
 /// What blends is passed over, but for the core of hair: its velocity is that of what is behind it.
 void draw_primitive(FrameState& frame, CharacterState& character, const Velocities& own, const Camera& last,
-                    const Primitive& primitive, std::size_t node, bool mirrored) {
+                    const Primitive& primitive, std::size_t node, bool mirrored, bool with_alpha_test) {
     const bool blended = is_blended(character.face, primitive);
     if (blended && !is_hair_card(character, primitive)) return;
     const Material* material =
         primitive.material >= 0 ? &character.face.materials[static_cast<std::size_t>(primitive.material)] : nullptr;
     const bool alpha_test =
         material != nullptr && material->alpha_mode != AlphaMode::opaque && material->base_color_srgb.image >= 0;
-    if (alpha_test) character.model->bind_maps(character.face, primitive.material);
+    if (alpha_test != with_alpha_test) return;
+    if (alpha_test) character.model->bind_maps(primitive.material, base_color_texture);
     use_program(frame, own.programs[alpha_test ? 1 : 0]);
 
     const glm::dmat4& world_from_mesh = character.stance.world_from_node[node];
@@ -98,18 +103,22 @@ void draw(FrameState& frame, const FrameGraph& graph) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, static_cast<GLsizei>(frame.view->width), static_cast<GLsizei>(frame.view->height));
     const std::array<float, 4> still{};
-    const float far_depth = 1;
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, still.data());
-    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_depth);
+    if (frame.view->host_depth == HostDepth::none) {
+        const float far_depth = 1;
+        glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_depth);
+    }
     glEnable(GL_DEPTH_TEST);
     forget_program(frame);
-    for (CharacterState* character : frame.characters) {
-        if (!character->report->on_screen) continue;
-        bind_surfaces(own, *character);
-        glBindVertexArray(own.vertex_array.name());
-        each_drawn_primitive(*character, [&](const Primitive& primitive, std::size_t node, bool mirrored) {
-            draw_primitive(frame, *character, own, last, primitive, node, mirrored);
-        });
+    for (const bool with_alpha_test : {false, true}) {  // a program each, whatever the number of characters
+        for (CharacterState* character : frame.characters) {
+            if (!character->report->on_screen) continue;
+            bind_surfaces(own, *character);
+            glBindVertexArray(own.vertex_array.name());
+            each_drawn_primitive(*character, [&](const Primitive& primitive, std::size_t node, bool mirrored) {
+                draw_primitive(frame, *character, own, last, primitive, node, mirrored, with_alpha_test);
+            });
+        }
     }
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
@@ -117,7 +126,7 @@ void draw(FrameState& frame, const FrameGraph& graph) {
 
 void declare(FrameState& frame) {
     Velocities& own = frame.shared_own<Velocities>();
-    constexpr std::array<std::string_view, 1> alpha_test = {"ALPHA_TEST"};
+    constexpr std::array<std::string_view, 2> alpha_test = {"ALPHA_TEST", "BASE_COLOR_MAP 0"};
     gl::require_program(own.programs[0], {"antialias/velocities.vert", "antialias/velocities.frag"});
     gl::require_program(own.programs[1], {"antialias/velocities.vert", "antialias/velocities.frag", alpha_test});
     if (!own.framebuffer) own.framebuffer = gl::make_framebuffer();
@@ -125,13 +134,19 @@ void declare(FrameState& frame) {
     frame.resources.velocities = frame.graph.texture("velocities", shape);
     shape.format = PixelFormat::depth32f;
     own.depth = frame.graph.texture("depth of velocities", shape);
+    const bool hidden_by_host = frame.view->host_depth != HostDepth::none;
+    if (hidden_by_host) declare_read_depth(frame, own.depth);
     frame.graph.pass("velocities", [&frame](const FrameGraph& graph) { draw(frame, graph); });
     for (const CharacterState* character : frame.characters) frame.graph.reads(character->resources.positions);
-    frame.graph.writes(frame.resources.velocities).writes(own.depth);
+    frame.graph.writes(frame.resources.velocities);
+    if (hidden_by_host) {
+        frame.graph.modifies(own.depth);
+    } else {
+        frame.graph.writes(own.depth);
+    }
+    const bool last_picture = frame.picture + 1 == frame.sampling.pictures;
+    if (last_picture && frame.view->velocity_framebuffer != 0) declare_write_velocities(frame);
 }
-
-/// Of no use by themselves: what T2x makes of them is measured with it.
-std::vector<Study> studies(const Device& /*device*/, const Face& /*face*/, double /*mm*/, bool /*quick*/) { return {}; }
 
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"a camera on the surface", "what was behind the camera has the largest velocity there is", [](Face&) {}, 1,
@@ -139,6 +154,8 @@ constexpr std::array<HardCase, 1> hard_cases = {{
 }};
 
 }  // namespace
+
+constinit const SettingId velocities_source = Own("source");
 
 const Effect velocities_effect = {
     .name = "velocities",
@@ -148,7 +165,6 @@ const Effect velocities_effect = {
     .stage = Stage::light,
     .need = need,
     .declare = declare,
-    .studies = studies,
     .hard_cases = hard_cases,
 };
 

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 
-#include "rig/wrinkles/wrinkle_error.h"
 #include "runtime/appearance/appearance_gpu.h"
-#include "runtime/appearance/signed_texture.h"
-#include "runtime/frame/effect.h"
-#include "runtime/gl/state_guard.h"
-#include "runtime/measure/appearance_frames.h"
-#include "runtime/measure/appearance_probe.h"
+#include "runtime/effects/effects.h"
+#include "runtime/effects/shared_settings.h"
+#include "runtime/frame/own_setting.h"
+#include "runtime/gl/shared_blocks.h"
+
+namespace blush::shared {
+#include "shaders/wrinkles/wrinkles_uniforms.glsl"
+}  // namespace blush::shared
 
 namespace blush {
 namespace {
@@ -33,6 +35,7 @@ constexpr std::array<Setting, 4> settings = {{
      .highest = 100,
      .default_number = 0.06},
 }};
+using Own = OwnSetting<wrinkles_effect, settings>;
 
 bool any_wrinkle(const CharacterState& character) {
     return std::ranges::any_of(character.pose.wrinkles, [](float weight) { return weight != 0; });
@@ -44,11 +47,11 @@ Need need(const FrameState& /*frame*/, const CharacterState& character) {
                 .reason = "the face has no wrinkle maps (blush bake wrinkles makes them)",
                 .can_be_forced = false};
     }
-    if (is_hidden(character.settings, "wrinkles")) {
+    if (character.settings.choice(Own("shown")) == 1) {
         return {.on = false, .reason = "wrinkles.shown says no", .can_be_forced = false};
     }
     if (!any_wrinkle(character)) return {.on = false, .reason = "no zone of the face is pressed together or smoothed"};
-    if (character.skin.pixels_a_mm < character.settings.number("wrinkles", "least_pixels_a_mm")) {
+    if (character.skin.pixels_a_mm < character.settings.number(Own("least_pixels_a_mm"))) {
         return {.on = false,
                 .reason = "the face is so small on the screen that a fold is narrower than a pixel",
                 .omission = Omission::bounded,
@@ -64,105 +67,54 @@ void declare(FrameState& frame) {
     }
 }
 
-/// The face's base normal map as derivatives, against the vectors of its image.
-std::optional<Study> base_map_study(const Face& face, const std::shared_ptr<AppearanceProbe>& probe) {
-    const auto material = std::ranges::find_if(face.materials, [](const Material& m) { return m.normal.image >= 0; });
-    if (material == face.materials.end()) return std::nullopt;
-    const auto image = std::make_shared<const Image>(face.images[static_cast<std::size_t>(material->normal.image)]);
-    Study study{"base normal map of the face, " + std::to_string(image->width) + " texels wide",
-                "the vectors of its image",
-                "degrees",
-                {},
-                probe};
-    constexpr std::array<std::pair<const char*, GLenum>, 3> formats = {
-        {{"RGTC2, 1 byte a texel", GL_COMPRESSED_SIGNED_RG_RGTC2},
-         {"2 bytes a texel", GL_RG8_SNORM},
-         {"half floats, 4 bytes a texel", GL_RG16F}}};
-    for (const auto& [name, format] : formats) {
-        Variant variant;
-        variant.label = name;
-        variant.work = "made and read back";
-        variant.is_default = study.variants.empty();
-        variant.run = [image, probe, format = format] {
-            const gl::StateGuard guard;
-            (void)base_normal_error(*image, format);
-        };
-        variant.error = [image, probe, format = format] {
-            const gl::StateGuard guard;
-            const BaseNormalError error = base_normal_error(*image, format);
-            return Variant::Error{error.mean, error.worst};
-        };
-        study.variants.push_back(std::move(variant));
-    }
-    return study;
-}
-
-std::vector<Study> studies(const Device& device, const Face& face, double millimetres_a_unit, bool /*quick*/) {
-    std::vector<Study> result = wrinkle_frame_study(device, face, millimetres_a_unit);
-    Result<FaceAppearance> appearance = load_face_appearance(appearance_folder(face.path));
-    if (!appearance || !appearance->wrinkles) return result;
-    appearance->wrinkles->part = {};  // a texel of the map for a point of the probe
-    std::shared_ptr<AppearanceProbe> probe = AppearanceProbe::create(device, face, *std::move(appearance));
-    if (!probe) return result;
-
-    Study stored{"stored wrinkle map of the face, every zone at 0.7",
-                 "the map in single precision on the CPU",
-                 "degrees",
-                 {},
-                 probe};
-    for (std::size_t s = 0; s < storages.size(); ++s) {
-        Variant variant;
-        variant.label = "wrinkles.storage=" + std::string(storages[s]);
-        variant.is_default = s == 0;
-        const auto choose = [probe, s] { (void)probe->character().set("wrinkles.storage", storages[s]); };
-        choose();
-        variant.work = std::to_string(wrinkle_textures(probe->state()).bytes) + " bytes with mip levels and masks";
-        variant.run = [probe, choose] {
-            choose();
-            probe->draw_normals(0.7F);
-        };
-        variant.error = [probe, choose] {
-            choose();
-            return probe->normal_error(0.7F);
-        };
-        stored.variants.push_back(std::move(variant));
-    }
-    result.push_back(std::move(stored));
-
-    Study combined{"normals of folds of 45 degrees on pores, at half weight, in 8 bits",
-                   "a displaced patch of skin in double precision (rig/wrinkles/wrinkle_error.h)",
-                   "degrees",
-                   {},
-                   probe};
-    for (std::size_t e = 0; e < encodings.size(); ++e) {
-        Variant variant;
-        variant.label = "wrinkles.encoding=" + std::string(encodings[e]);
-        variant.is_default = e == 0;
-        variant.work = e == 0 ? "2 channels" : "3 channels";
-        variant.run = [probe, e] {
-            (void)probe->character().set("wrinkles.encoding", encodings[e]);
-            probe->draw_normals(0.5F);
-        };
-        variant.error = [e] {
-            WrinkleErrorCase of;
-            of.encoding = static_cast<WrinkleEncoding>(e);
-            of.steepest_degrees = 45;
-            of.weight = 0.5;
-            const NormalError error = wrinkle_normal_error(of);
-            return Variant::Error{error.mean_degrees, error.worst_degrees};
-        };
-        combined.variants.push_back(std::move(variant));
-    }
-    result.push_back(std::move(combined));
-    if (std::optional<Study> base = base_map_study(face, probe)) result.push_back(*std::move(base));
-    return result;
-}
-
 constexpr std::array<HardCase, 1> hard_cases = {{
     {"face without maps", "is drawn as it is", [](Face& /*face*/) {}},
 }};
 
+bool of_differences(const CharacterState& character) { return character.settings.choice(Own("encoding")) == 1; }
+
+std::uint32_t variant(const FrameState& /*frame*/, const CharacterState& character) {
+    return of_differences(character) ? 1 : 0;
+}
+
+void write(const FrameState& /*frame*/, CharacterState& character, void* to) {
+    auto& out = *static_cast<shared::WrinklesUniforms*>(to);
+    const WrinkleSet& set = *character.asset.appearance().wrinkles;
+    std::array<float, std::size_t{4} * BLUSH_MOST_WRINKLE_MASKS> weights{};
+    zone_weights_of(character, weights);
+    for (std::size_t z = 0; z < weights.size(); ++z) out.weights[z / 4][static_cast<glm::length_t>(z % 4)] = weights[z];
+    const glm::vec2 scale = 1.0F / (set.part.to - set.part.from);
+    out.part = glm::vec4(scale, -set.part.from * scale);
+    out.range = set.range;
+}
+
+void bind(FrameState& /*frame*/, CharacterState& character, std::uint32_t unit) {
+    const WrinkleTextures& textures = wrinkle_textures(character);
+    glBindTextureUnit(unit, (of_differences(character) ? textures.differences : textures.derivatives).name());
+    glBindTextureUnit(unit + 1, textures.masks.name());
+}
+
+constexpr std::array<std::string_view, 1> hooks = {"relief"};
+constexpr std::array<ShadingVariant, 1> variants = {{{"WRINKLE_DIFFERENCES"}}};
+constexpr std::array<UniformField, 3> fields = {{{"weights[0]", offsetof(shared::WrinklesUniforms, weights)},
+                                                 {"part", offsetof(shared::WrinklesUniforms, part)},
+                                                 {"range", offsetof(shared::WrinklesUniforms, range)}}};
+constexpr ShadingPart shading = {
+    .file = "wrinkles/wrinkles.glsl",
+    .hooks = hooks,
+    .materials = materials_of(MaterialKind::skin),
+    .variants = variants,
+    .variant = variant,
+    .uniforms = {"wrinkles/wrinkles_uniforms.glsl", "WrinklesUniforms", sizeof(shared::WrinklesUniforms), fields,
+                 write},
+    .textures = 2,
+    .bind = bind,
+};
+
 }  // namespace
+
+constinit const SettingId wrinkles_encoding = Own("encoding");
+constinit const SettingId wrinkles_storage = Own("storage");
 
 const Effect wrinkles_effect = {
     .name = "wrinkles",
@@ -171,7 +123,7 @@ const Effect wrinkles_effect = {
     .stage = Stage::light,
     .character_need = need,
     .declare = declare,
-    .studies = studies,
+    .shading = &shading,
     .hard_cases = hard_cases,
 };
 

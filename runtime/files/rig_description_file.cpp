@@ -5,6 +5,7 @@
 #include <exception>
 #include <initializer_list>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <unordered_map>

@@ -1,6 +1,8 @@
 #pragma once
 /// What a FaceAsset holds: the face, and what is found about it once.
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "rig/head/eye_sockets.h"
 #include "rig/head/face_scale.h"
 #include "rig/head/material_kind.h"
+#include "rig/head/sockets.h"
 #include "rig/light/occlusion.h"
 #include "runtime/draw/extents.h"
 #include "runtime/draw/skin_surface.h"
@@ -37,6 +40,14 @@ struct AssetState {
     bool has_triangles = false;
     /// Where skinned vertices have their origin in the face's space: near them, so that their floats are fine.
     glm::dvec3 skinned_origin{0};
+    std::vector<glm::dmat4> rest_placement;          ///< face_from_node at rest
+    std::vector<glm::dmat4> rest_skinned_from_mesh;  ///< of all joints, less skinned_origin
+    std::array<SocketSource, socket_count> sockets;
+    std::vector<glm::vec3> mesh_origin;  ///< of each mesh: what was taken off the file's vertices (rig/far_vertices.h)
+    std::vector<glm::dvec3> joint_mesh_origin;  ///< of each joint of all skins: that of the meshes that follow it
+    double float_step_mm = 0;                   ///< FaceAsset::float_step_mm()
+    /// Tells surfaces apart: copies with other maps share it.
+    std::shared_ptr<const char> geometry = std::make_shared<const char>();
 };
 
 }  // namespace blush

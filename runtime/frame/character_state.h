@@ -15,15 +15,19 @@
 #include "runtime/face_asset.h"
 #include "runtime/frame/asset_state.h"
 #include "runtime/frame/frame_graph.h"
+#include "runtime/frame/shading_part.h"
+#include "runtime/frame/stand.h"
 #include "runtime/frame/store.h"
 #include "runtime/frame_report.h"
 #include "runtime/gl/shared_blocks.h"
 #include "runtime/light/scene_lights.h"
 #include "runtime/settings.h"
+#include "runtime/surface.h"
 
 namespace blush {
 
 struct Effect;
+struct PinnedSurface;
 
 /// What predicates ask of a character's pose; found once a frame.
 struct CharacterFacts {
@@ -32,17 +36,10 @@ struct CharacterFacts {
     bool any_turned_normals = false;          ///< some target of the face does
     bool deformation_current = false;         ///< deformed() holds what these weights and settings give
     bool has_joints = false;
-    bool skinned = false;  ///< skinned() holds what these joints, weights and settings give
+    bool skinned = false;       ///< skinned() holds what these joints, weights and settings give
+    bool pinned = false;        ///< some vertex is pinned
+    bool pins_applied = false;  ///< the pinned surface is what this stance and these settings give
     bool forced = false;
-};
-
-/// All that decides where each point of the surface stands in the world.
-struct Stance {
-    std::vector<ActiveTarget> active;
-    std::vector<glm::dmat4> world_from_node;
-    std::vector<glm::mat4> skinned_from_mesh;
-
-    bool operator==(const Stance&) const = default;
 };
 
 /// The surface as it was in an earlier frame of the scene.
@@ -80,6 +77,7 @@ struct CharacterState {
         std::vector<glm::mat4> joints;
         EffectSettings settings;
     } skinned;
+    std::shared_ptr<PinnedSurface> pinned;  ///< none: the host pins nothing
     LastSurface last;
 
     // The frame being drawn.
@@ -87,6 +85,7 @@ struct CharacterState {
     Stance stance;
     std::vector<glm::dmat4> face_from_node;
     NormalMethod normal_method = NormalMethod::authored;
+    double scale_of_place = 1;      ///< world units a unit of the file
     double millimetres_a_unit = 1;  ///< of the world
     glm::dvec3 centre_world{0};     ///< of a sphere around it
     double radius_world = 0;
@@ -95,7 +94,6 @@ struct CharacterState {
     struct Resources {
         ResourceId positions{}, normals{}, tangents{};                          ///< the surface as far as it has come
         ResourceId morphed_positions{}, morphed_normals{}, morphed_tangents{};  ///< before joints
-        ResourceId blood_change{};                                              ///< what "blend blood" writes
     } resources;
 
     // The view being drawn.
@@ -110,11 +108,18 @@ struct CharacterState {
     std::vector<std::uint32_t> reaching;       ///< lights of the frame that reach it
     std::vector<shared::Light> shader_lights;  ///< the same, with their shadow maps where they have one
     std::uint32_t shadow_lights = 0;           ///< of them that have one
+    /// Light from all around, as shared::FrameBlock has it.
+    std::array<glm::vec4, 9> ambient_sh{};
     CharacterReport* report = nullptr;
     std::vector<std::uint8_t> effects_on;  ///< of each effect of the registry
+    Shading shading;                       ///< effects that shade it
     DrawBlocks draw_blocks;
-    gl::Buffer frame_block;
+    gl::Buffer frame_block;    ///< shared::FrameBlock
+    gl::Buffer effects_block;  ///< numbers of effects: runtime/draw/shading.h
+    std::vector<std::byte> effects_staging;
     Store store;
+
+    std::vector<SurfacePrimitive> published;  ///< what Character::surface() last said
 
     /// Whether an effect takes part in this frame for this character. Known once needs are found.
     bool on(const Effect& effect) const;

@@ -32,7 +32,8 @@ struct DeviceState {
 
     gl::ProgramCache programs;
     gl::Deletions deletions;
-    gl::TexturePool textures;  ///< transient ones, of every frame that is drawn on the device
+    gl::TexturePool textures;       ///< transient ones, of every frame that is drawn on the device
+    std::uint32_t kept_states = 0;  ///< HostStates that live
     Store store;
     /// Of the assets that characters on this device show.
     std::map<const AssetState*, std::weak_ptr<FaceModel>> models;

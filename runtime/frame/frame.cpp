@@ -8,8 +8,10 @@
 
 #include "runtime/antialias/last_frame.h"
 #include "runtime/antialias/pictures.h"
+#include "runtime/deform/pinned_surface.h"
+#include "runtime/draw/shading.h"
 #include "runtime/frame/on_screen.h"
-#include "runtime/light/shadow_maps.h"
+#include "runtime/light/environment_map.h"
 
 namespace blush {
 namespace {
@@ -18,26 +20,11 @@ namespace {
 void place_character(CharacterState& character) {
     character.rig.evaluate(character.controls, character.pose);
     if (character.blood) character.blood->apply(character.pose);
-    Stance& stance = character.stance;
-    find_active(character.pose.weights, stance.active);
+    find_stance(character, character.pose, character.face_from_node, character.stance);
     const AssetState& asset = character.facts_of_face;
-    place_nodes(character.face, character.pose, asset.head_and_eyes, character.face_from_node);
-    for (std::size_t n = 0; n < character.face_from_node.size(); ++n) {
-        stance.world_from_node[n] = character.world_from_face * character.face_from_node[n];
-    }
-    stance.world_from_node.back() = character.world_from_face * glm::translate(glm::dmat4(1), asset.skinned_origin);
-    if (character.host_joints.empty()) {
-        skinned_from_meshes(character.face, character.face_from_node, asset.skinned_origin, stance.skinned_from_mesh);
-    } else {
-        for (std::size_t j = 0; j < stance.skinned_from_mesh.size(); ++j) {
-            stance.skinned_from_mesh[j] = character.host_joints[j];
-            stance.skinned_from_mesh[j][3] -= glm::vec4(glm::vec3(asset.skinned_origin), 0);
-        }
-    }
     const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(character.world_from_face))));
-    const double set_scale = character.settings.number("scattering", "millimetres_a_unit");
-    const double of_face = set_scale > 0 ? set_scale : asset.scale.millimetres_a_unit;
-    character.millimetres_a_unit = scale > 0 && std::isfinite(scale) ? of_face / scale : of_face;
+    character.scale_of_place = scale > 0 && std::isfinite(scale) ? scale : 1;
+    character.millimetres_a_unit = asset.scale.millimetres_a_unit / character.scale_of_place;
     const Bounds bounds = moved_bounds(character);
     character.centre_world = glm::dvec3(character.world_from_face * glm::dvec4(bounds.centre(), 1));
     // A little more than the bounds, so that a deformation that leaves them somewhat still casts its shadow.
@@ -45,26 +32,19 @@ void place_character(CharacterState& character) {
 }
 
 void find_facts(CharacterState& character, bool forced) {
-    const AssetState& asset = character.facts_of_face;
     const std::vector<ActiveTarget>& active = character.active();
     CharacterFacts& facts = character.facts;
     facts = {};
     facts.active_targets = static_cast<std::uint32_t>(active.size());
     facts.has_joints = !character.face.joints.empty();
     facts.forced = forced;
-    character.normal_method =
-        static_cast<NormalMethod>(character.settings.choice(normals_effect.name, normals_effect.settings[0].name));
-    const auto& needs = character.normal_method == NormalMethod::authored ? asset.target_needs_turned_normals
-                                                                          : asset.target_moves_normals;
-    facts.any_turned_normals = std::ranges::any_of(needs, [](std::uint8_t need) { return need != 0; });
-    facts.active_need_turned_normals =
-        std::ranges::any_of(active, [&](const ActiveTarget& entry) { return needs[entry.target] != 0; });
     facts.deformation_current = character.deformed_valid && character.deformed_settings == character.settings &&
                                 active == character.deformed_active;
     facts.skinned = character.skinned.valid && character.skinned.settings == character.settings &&
                     character.skinned.active == active &&
                     character.skinned.joints == character.stance.skinned_from_mesh;
     if (facts.active_targets != 0 || forced) character.stream_out.prepare();
+    find_pins(character);
 }
 
 /// Clip space of the host's convention to GL's own: a linear map of z and w.
@@ -108,6 +88,12 @@ void place_in_view(FrameState& frame) {
         report.lights = static_cast<std::uint32_t>(character->reaching.size());
         report.lights_left_out = reach.left_out;
         report.lights_left_out_radiance = reach.left_out_radiance;
+        character->ambient_sh = ambient_sh(*frame.lighting);
+        character->shader_lights.clear();
+        for (const std::uint32_t l : character->reaching) {
+            character->shader_lights.push_back(shader_light(frame.lights[l], character->origin_world));
+        }
+        character->shadow_lights = 0;
     }
 }
 
@@ -148,6 +134,9 @@ void begin_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
     frame.facts = {};
     frame.facts.forced = view.force_effects;
     for (CharacterState* character : frame.characters) find_facts(*character, view.force_effects);
+    for (const Effect* effect : effects()) {
+        if (effect->find_facts != nullptr) effect->find_facts(frame);
+    }
     find_light(frame, view);
     place_in_view(frame);
     for (CharacterState* character : frame.characters) {
@@ -157,7 +146,9 @@ void begin_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
             character->facts_of_face.has_triangles && (view.force_effects || may_be_on_screen(frame, *character));
         frame.facts.on_screen |= character->report->on_screen;
     }
-    place_shadow_maps(frame);
+    for (const Effect* effect : effects()) {
+        if (effect->find_in_view != nullptr) effect->find_in_view(frame);
+    }
 }
 
 EffectReport report_of(const Effect& effect, const Need& need, bool forced) {
@@ -198,6 +189,36 @@ void find_needs(FrameState& frame) {
     }
 }
 
+/// Takes an effect out of a character's shading, and what builds on it.
+void leave_out(const ShadingLayout& layout, const Effect& effect, Shading& shading) {
+    for (std::size_t k = 0; k < layout.parts.size(); ++k) {
+        const Effect* part = layout.parts[k].effect;
+        if (part == &effect || part->shading->builds_on == &effect) shading.parts &= ~(1U << k);
+    }
+}
+
+/// Leaves out, from the last on, effects whose textures find no unit beside those of the face's materials.
+void fit_textures(FrameState& frame, CharacterState& character) {
+    const ShadingLayout& layout = shading_layout(frame.shared);
+    const auto units = static_cast<std::uint32_t>(std::max(0, frame.device.info().texture_units));
+    for (std::size_t k = layout.parts.size(); k-- > 0;) {
+        if (shading_units(frame.shared, character, character.shading) <= units) return;
+        const Effect& effect = *layout.parts[k].effect;
+        if ((character.shading.parts >> k & 1U) == 0 || effect.shading->textures == 0) continue;
+        leave_out(layout, effect, character.shading);
+        std::vector<EffectReport>& reports = character.report->effects;
+        std::erase_if(reports, [&effect](const EffectReport& report) { return report.effect == effect.name; });
+        reports.push_back({effect.name, false, "all texture units of the device are taken", Omission::exact, 0, {}});
+    }
+}
+
+void find_shading(FrameState& frame) {
+    for (CharacterState* character : frame.characters) {
+        character->shading = shading_of(frame, *character);
+        fit_textures(frame, *character);
+    }
+}
+
 std::size_t index_of(const Effect& effect) {
     const std::span<const Effect* const> registry = effects();
     return static_cast<std::size_t>(std::ranges::find(registry, &effect) - registry.begin());
@@ -205,11 +226,9 @@ std::size_t index_of(const Effect& effect) {
 
 /// Effects that run must leave the same picture as effects that were left out; what they leave is remembered here.
 void remember_surface(CharacterState& character) {
-    if (character.on(skinning_effect)) {
-        character.skinned.valid = true;
-        character.skinned.settings = character.settings;
-        character.skinned.active = character.active();
-        character.skinned.joints = character.stance.skinned_from_mesh;
+    const std::span<const Effect* const> registry = effects();
+    for (std::size_t e = 0; e < registry.size(); ++e) {
+        if (registry[e]->finish != nullptr && character.effects_on[e] != 0) registry[e]->finish(character);
     }
     // At rest the rest surface was used as it is.
     if (character.facts.active_targets == 0 && !character.facts.forced) return;
@@ -221,8 +240,9 @@ void remember_surface(CharacterState& character) {
 /// What the surface passes start from, or what they have left for a further picture of the same frame.
 void import_surface(FrameState& frame, CharacterState& character) {
     if (frame.picture == 0) {
-        const bool made = character.facts.skinned && !character.on(skinning_effect);
+        const bool made = character.facts.skinned && !character.facts.forced;
         character.surface = made ? &character.stream_out.skinned() : &character.morphed();
+        if (character.facts.pins_applied && !character.facts.forced) character.surface = &character.pinned->surface;
     }
     const SurfaceBuffers& surface = *character.surface;
     const auto count = static_cast<std::uint32_t>(character.face.positions.size());
@@ -308,12 +328,12 @@ void declare_scene_images(FrameState& frame, const ViewFrame& view, bool last_pi
     resources.scene_color_multisampled = resources.to_resolve[0].from;
     resources.scene_depth = last_picture && frame.sampling.temporal ? import_kept_depth(frame, depth)
                                                                     : frame.graph.texture("scene depth", depth);
-    if (!frame.on(scattering_effect)) return;
-    TextureShape skin_depth = color;
-    skin_depth.format = PixelFormat::rg32f;
-    resources.skin_light = shaded_image(frame, "skin light, multisampled", "skin light", color);
-    resources.skin_albedo = shaded_image(frame, "skin albedo, multisampled", "skin albedo", color);
-    resources.skin_depth = shaded_image(frame, "skin depth, multisampled", "skin depth", skin_depth);
+    each_shading_target(frame, [&](const Effect& effect, const ShadingTarget& target, std::size_t) {
+        TextureShape shape = color;
+        shape.format = target.format;
+        resources.targets[resources.target_count++] = {
+            &effect, shaded_image(frame, target.multisampled_name, target.name, shape)};
+    });
 }
 
 void declare_picture(FrameState& frame, const ViewFrame& view) {
@@ -328,7 +348,7 @@ void declare_picture(FrameState& frame, const ViewFrame& view) {
     if (frame.picture == 0) declare_stage(frame, Stage::surface);
     declare_stage(frame, Stage::light);
     declare_scene_images(frame, view, last_picture);
-    if (view.host_depth != HostDepth::none) declare_read_depth(frame);
+    if (view.host_depth != HostDepth::none) declare_read_depth(frame, frame.resources.scene_depth);
 
     declare_shade(frame);
     declare_stage(frame, Stage::resolve);
@@ -358,6 +378,13 @@ bool CharacterState::on(const Effect& effect) const {
 bool FrameState::on(const Effect& effect) const {
     const std::size_t place = index_of(effect);
     return place < effects_on.size() && effects_on[place] != 0;
+}
+
+ResourceId FrameState::target(const Effect& effect, std::size_t k) const {
+    const auto targets = std::span(resources.targets).first(resources.target_count);
+    const auto first = std::ranges::find(targets, &effect, &FrameResources::Target::effect);
+    assert(first != targets.end());
+    return first[static_cast<std::ptrdiff_t>(k)].id;
 }
 
 void FrameState::drew(CharacterState& character, std::uint32_t triangles) {
@@ -426,16 +453,38 @@ void draw_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
         find_last_frame(frame, view);
         frame.report.incomplete = frame.sampling.temporal && !frame.facts.has_last_frame;
         find_needs(frame);
+        find_shading(frame);
         begin_pictures(frame);
         for (frame.picture = 0; frame.picture < frame.sampling.pictures; ++frame.picture) {
             frame.graph.clear();
             declare_picture(frame, view);
+            // Without all of its programs a picture is not drawn: the report says why, or they are to come (warm_up()).
+            if (frame.shared.programs.failed() || frame.shared.programs.postponed()) break;
             run(frame, view);
         }
         for (CharacterState* character : frame.characters) remember_surface(*character);
         keep_for_next_frame(frame);
     }
     frame.report.programs_compiled = static_cast<std::uint32_t>(frame.shared.programs.compiled() - compiled_before);
+    if (std::optional<Error> failure = frame.shared.programs.take_failure()) frame.report.failure = failure->message;
+}
+
+void hand_over_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
+    begin_view(frame, scene, view);
+    frame.sampling = {};
+    frame.picture = 0;
+    if (make_common_passes(frame)) {
+        find_needs(frame);
+        find_shading(frame);
+        frame.graph.clear();
+        frame.resources = {};
+        for (CharacterState* character : frame.characters) import_surface(frame, *character);
+        declare_stage(frame, Stage::surface);
+        declare_stage(frame, Stage::light);
+        declare_host_shading(frame);
+        run(frame, view);
+        for (CharacterState* character : frame.characters) remember_surface(*character);
+    }
     if (std::optional<Error> failure = frame.shared.programs.take_failure()) frame.report.failure = failure->message;
 }
 

@@ -18,6 +18,9 @@ void end_scene_frame(SceneState& scene, bool keep_surfaces);
 /// Draws one view of the frame that begin_scene_frame() started; frame.report says what was done.
 void draw_view(FrameState& frame, SceneState& scene, const ViewFrame& view);
 
+/// Makes all that shading reads for a view, and leaves shading to the host.
+void hand_over_view(FrameState& frame, SceneState& scene, const ViewFrame& view);
+
 /// Makes the surfaces of a scene's characters, and nothing else.
 void deform_only(FrameState& frame, SceneState& scene, bool forced = false);
 
@@ -40,12 +43,16 @@ void draw_screen(const FrameState& frame);
 
 /// Passes that every frame has, in passes/. declare_copy: between textures.
 void declare_shade(FrameState& frame);
+/// In its place, where the host shades: blocks are filled, and all that shading reads is made.
+void declare_host_shading(FrameState& frame);
 void declare_tone(FrameState& frame, ResourceId to);
 void declare_copy(FrameState& frame, ResourceId from, ResourceId to);
 /// The host's depth into the scene's, before anything is shaded.
-void declare_read_depth(FrameState& frame);
+void declare_read_depth(FrameState& frame, ResourceId to);
 /// The scene's depth into the host's.
 void declare_write_depth(FrameState& frame, ResourceId target);
+/// Velocities of what is seen into the framebuffer that the host has for them.
+void declare_write_velocities(FrameState& frame);
 /// A picture over what the host's framebuffer holds, or over its rectangle there.
 void declare_compose(FrameState& frame, ResourceId from, ResourceId target);
 /// Makes the device's CommonPasses where they are not there yet, and sets frame.common.

@@ -3,6 +3,7 @@
 /// frame share it.
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct SceneFacts {
     bool on_screen = false;  ///< some part of a face may be on the screen; false only where none can be
     bool skin_on_screen = false;
     bool forced = false;
-    // Of temporal antialiasing; false in other modes.
+    // Of views that compare frames; false in others.
     bool has_last_frame = false;  ///< the last frame can be compared with this one
     bool moves = false;           ///< ... and some point may stand elsewhere on the screen than in it
 };
@@ -33,17 +34,21 @@ struct SceneFacts {
 /// Resources of a picture that passes hand on to one another.
 struct FrameResources {
     ResourceId scene_color_multisampled{}, scene_depth{}, scene_color{};
-    /// Light that scatters, the albedo that it leaves by, its depth and its character, each times the skin's matte;
-    /// with scattering only.
-    ResourceId skin_light{}, skin_albedo{}, skin_depth{};
+    /// What effects have shading write beside the colour (ShadingPart::targets), resolved.
+    struct Target {
+        const Effect* effect = nullptr;
+        ResourceId id{};
+    };
+    std::array<Target, 7> targets{};  // GL has eight draw buffers at least
+    std::size_t target_count = 0;
     ResourceId shadow_maps{};
-    ResourceId log2_exposure{};  ///< one texel, with the automatic exposure only
+    std::optional<ResourceId> log2_exposure;  ///< one texel; where the exposure is metered
     /// Multisampled images that shading writes and what they become, one sample a pixel: the scene's colour, and others
     /// that are resolved with its weights.
     struct Resolved {
         ResourceId from{}, to{};
     };
-    std::array<Resolved, 6> to_resolve{};
+    std::array<Resolved, 8> to_resolve{};
     std::size_t resolve_count = 0;
     ResourceId velocities{};  ///< rgba16f, of the frame's last picture: shaders/antialias/velocities.frag
     ResourceId speeds{};      ///< speeds as far as they have come: filtered, averaged
@@ -52,7 +57,7 @@ struct FrameResources {
 
 /// Framebuffers and programs of passes that every frame has; of the device.
 struct CommonPasses {
-    gl::Program tone, compose, move_depth, move_multisampled_depth;
+    gl::Program tone, compose, write_velocities, move_depth, move_multisampled_depth;
     gl::Framebuffer scene, resolved, output, depth_only;
     gl::VertexArray no_attributes;
 };
@@ -76,6 +81,7 @@ struct FrameState {
     std::uint32_t picture = 0;    ///< the one being drawn, of sampling.pictures
     FrameGraph graph;
     FrameResources resources;
+    double exposure_stops = 0;           ///< of the camera, beside ViewFrame::exposure; where it is not metered
     const Lighting* lighting = nullptr;  ///< the view's, the scene's, or portrait
     Lighting portrait;
     std::vector<LightSource> lights;  ///< that are not dark
@@ -99,6 +105,8 @@ struct FrameState {
     /// Whether an effect takes part in this frame: for the view, or for any of its characters. Known once needs are
     /// found.
     bool on(const Effect& effect) const;
+    /// An effect's target of shading, ShadingPart::targets[k]; the effect is on.
+    ResourceId target(const Effect& effect, std::size_t k) const;
     /// Adds a character's share of the work to the report.
     void drew(CharacterState& character, std::uint32_t triangles);
 };

@@ -17,6 +17,12 @@ public:
         if (!kept) kept = std::make_shared<T>();
         return *static_cast<T*>(kept.get());
     }
+    /// Null where it was not asked for yet.
+    template <class T>
+    const T* find() const {
+        const auto found = kept_.find(std::type_index(typeid(T)));
+        return found == kept_.end() ? nullptr : static_cast<const T*>(found->second.get());
+    }
     template <class T>
     void forget() {
         kept_.erase(std::type_index(typeid(T)));

@@ -8,9 +8,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "rig/result.h"
 #include "runtime/gl/object.h"
+#include "shaders/embedded.h"
 
 namespace blush::gl {
 
@@ -27,12 +29,34 @@ private:
     GLuint name_ = 0;
 };
 
+/// A field of a uniform block and where C++ has it.
+struct BlockField {
+    std::string name;  ///< as the driver names it: "lights[0].radiance_linear"
+    std::size_t offset = 0;
+};
+struct BlockLayout {
+    std::string name;
+    std::size_t bytes = 0;
+    std::vector<BlockField> fields;
+};
+
+/// What a program's files leave open, for whoever makes the program to say.
+struct Insertions {
+    /// `#insert NAME` is this text, whose own directives count. A name without text stands for none.
+    std::map<std::string, std::string, std::less<>> texts;
+    /// `#call HOOK(arguments)` is a call of each of these functions, in order, and CALLS_HOOK is defined.
+    std::map<std::string, std::vector<std::string>, std::less<>> calls;
+    std::vector<EmbeddedShader> files;  ///< beside those of the library
+    std::vector<BlockLayout> blocks;    ///< checked beside those of shared.glsl
+};
+
 struct ProgramSource {
     std::string_view vertex = {};                    ///< file name in shaders/
     std::string_view fragment = {};                  ///< empty for stream-out
     std::span<const std::string_view> defines = {};  ///< permutation, such as "HAS_NORMAL_DELTAS"
     std::span<const char* const> streamed_out = {};  ///< vertex outputs captured, each into a buffer of its own
     std::string_view compute = {};                   ///< file name of a compute program, which has no other stage
+    const Insertions* insertions = nullptr;          ///< null: none
 };
 
 /// The programs of one context, which all that draws in it share: a second character of the same kind compiles nothing.
@@ -52,15 +76,22 @@ public:
     std::size_t size() const { return programs_.size(); }
     /// How often a program was compiled since the cache was made.
     std::uint64_t compiled() const { return compiled_; }
-    /// Keeps the first error until it is taken.
+    /// Keeps the first error until it is taken; none of what is postponed.
     void fail(Error error);
+    bool failed() const { return failure_.has_value(); }
     std::optional<Error> take_failure();
+    /// Until unlimited(), no more than so many programs are compiled: further ones are postponed, which is no failure.
+    void limit(std::uint64_t most);
+    void unlimited();
+    bool postponed() const { return postponed_; }
     /// As make_program().
     Result<Program> get(const ProgramSource& source);
 
 private:
     std::map<std::string, Program, std::less<>> programs_;
     std::uint64_t compiled_ = 0;
+    std::optional<std::uint64_t> compile_until_;  ///< compiled_ may come to this
+    bool postponed_ = false;
     std::optional<Error> failure_;
 };
 
@@ -73,12 +104,14 @@ Result<Program> make_program(const ProgramSource& source);
 /// frame to report (ProgramCache::take_failure), and `program` stays none. Returns whether there is a program.
 bool require_program(Program& program, const ProgramSource& source);
 
-/// Compares each uniform block of shared.glsl that `program` has, as the driver laid it out, with its C++ struct.
-/// Error: the block or field that differs; `file` names the shader in it. make_program() asks this.
-Status check_blocks(GLuint program, std::string_view file);
+/// Compares each uniform block of shared.glsl, and each of `further`, that `program` has, as the driver laid it out,
+/// with its C++ struct. Error: the block or field that differs; `file` names the shader in it. make_program() asks
+/// this.
+Status check_blocks(GLuint program, std::string_view file, std::span<const BlockLayout> further = {});
 
-/// The text of a shader with `#include "file"` resolved (each file once) and #version and the defines in front.
-/// Error: a file that does not exist.
-Result<std::string> expand_shader(std::string_view file, std::span<const std::string_view> defines);
+/// The text of a shader with `#include "file"` (each file once), `#insert NAME` and `#call HOOK(arguments)` resolved,
+/// and #version and the defines in front. Error: a file that does not exist.
+Result<std::string> expand_shader(std::string_view file, std::span<const std::string_view> defines,
+                                  const Insertions* insertions = nullptr);
 
 }  // namespace blush::gl

@@ -61,6 +61,7 @@ StateGuard::StateGuard() {
         glActiveTexture(GL_TEXTURE0 + unit);
         textures_[unit] = integer(GL_TEXTURE_BINDING_2D);
         multisampled_textures_[unit] = integer(GL_TEXTURE_BINDING_2D_MULTISAMPLE);
+        array_textures_[unit] = integer(GL_TEXTURE_BINDING_2D_ARRAY);
         samplers_[unit] = integer(GL_SAMPLER_BINDING);
     }
     glActiveTexture(enum_of(active_unit_));
@@ -152,6 +153,7 @@ StateGuard::~StateGuard() {
         glActiveTexture(GL_TEXTURE0 + unit);  // glBindTextureUnit with 0 would clear the unit's other targets too
         glBindTexture(GL_TEXTURE_2D, name_of(textures_[unit]));
         glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, name_of(multisampled_textures_[unit]));
+        glBindTexture(GL_TEXTURE_2D_ARRAY, name_of(array_textures_[unit]));
         glBindSampler(unit, name_of(samplers_[unit]));
     }
     glActiveTexture(enum_of(active_unit_));

@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <optional>
 
 namespace blush::gl {
 
@@ -14,7 +15,7 @@ public:
     StateGuard(const StateGuard&) = delete;
     StateGuard& operator=(const StateGuard&) = delete;
 
-    static constexpr std::size_t texture_units = 16, uniform_bindings = 4, storage_bindings = 6;
+    static constexpr std::size_t texture_units = 24, uniform_bindings = 4, storage_bindings = 6;
     /// The least that GL 4.5 guarantees (table 23.55 and 23.65), and what Mesa, NVIDIA and AMD have: glViewport and its
     /// kind write them all at once.
     static constexpr std::size_t viewports = 16, draw_buffers = 8;
@@ -57,7 +58,7 @@ private:
     static void restore(GLenum target, GLuint index, const Binding& binding);
 
     std::array<GLboolean, switches.size()> enabled_{};
-    std::array<GLint, texture_units> textures_{}, multisampled_textures_{}, samplers_{};
+    std::array<GLint, texture_units> textures_{}, multisampled_textures_{}, array_textures_{}, samplers_{};
     std::array<Binding, uniform_bindings> uniform_blocks_{};
     std::array<Binding, storage_bindings> storage_blocks_{};
     GLint active_unit_ = 0, program_ = 0, vertex_array_ = 0, draw_framebuffer_ = 0, read_framebuffer_ = 0,
@@ -71,6 +72,17 @@ private:
     Stencil stencil_front_, stencil_back_;
     std::array<GLfloat, 4> blend_color_{};
     GLboolean depth_mask_ = GL_TRUE;
+};
+
+/// A guard, where nobody around has one.
+class DrawScope {
+public:
+    explicit DrawScope(bool guards) {
+        if (guards) guard_.emplace();
+    }
+
+private:
+    std::optional<StateGuard> guard_;
 };
 
 }  // namespace blush::gl

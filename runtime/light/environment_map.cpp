@@ -20,36 +20,40 @@ struct EnvironmentMap {
 };
 
 /// Radiance that comes from every side.
-void write_least(glm::vec3 radiance, shared::FrameBlock& block) {
-    for (glm::length_t c = 0; c < 3; ++c) block.ambient_sh[c].w = radiance[c];
+using Coefficients = std::array<glm::vec4, 9>;
+
+void write_least(glm::vec3 radiance, Coefficients& out) {
+    for (std::size_t c = 0; c < 3; ++c) out[c].w = radiance[static_cast<glm::length_t>(c)];
 }
 
 /// White reflects ground + (sky - ground) (1 + n.y) / 2: bands 0 and 1.
-void write_sky(glm::vec3 sky, glm::vec3 ground, shared::FrameBlock& block) {
+void write_sky(glm::vec3 sky, glm::vec3 ground, Coefficients& out) {
     const Sh9 up = sh_basis({0, 1, 0});
-    block.ambient_sh[0] = glm::vec4(0.5F * (sky + ground) / static_cast<float>(up[0]), 0);
-    block.ambient_sh[1] = glm::vec4(0.5F * (sky - ground) / static_cast<float>(up[1]), 0);
-    write_least(glm::min(sky, ground), block);
+    out[0] = glm::vec4(0.5F * (sky + ground) / static_cast<float>(up[0]), 0);
+    out[1] = glm::vec4(0.5F * (sky - ground) / static_cast<float>(up[1]), 0);
+    write_least(glm::min(sky, ground), out);
 }
 
 float finite_or(float value, float otherwise) { return std::isfinite(value) ? value : otherwise; }
 
 }  // namespace
 
-void write_ambient(const FrameState& frame, shared::FrameBlock& block) {
-    const Lighting& lighting = *frame.lighting;
+EnvironmentView environment_view(const Lighting& lighting) {
+    return {std::clamp(finite_or(lighting.environment_factor, 0), 0.0F, 1e4F),
+            std::remainder(finite_or(lighting.environment_turn_radians, 0), 2 * std::numbers::pi_v<float>)};
+}
+
+std::array<glm::vec4, 9> ambient_sh(const Lighting& lighting) {
+    Coefficients out{};
     if (lighting.environment == nullptr) {
-        write_sky(lighting.sky_radiance_linear, lighting.ground_radiance_linear, block);
-        return;
+        write_sky(lighting.sky_radiance_linear, lighting.ground_radiance_linear, out);
+        return out;
     }
-    const float factor = std::clamp(finite_or(lighting.environment_factor, 0), 0.0F, 1e4F);
-    const float turn = std::remainder(finite_or(lighting.environment_turn_radians, 0), 2 * std::numbers::pi_v<float>);
+    const auto [factor, turn] = environment_view(lighting);
     const glm::dmat3 rotation(glm::rotate(glm::dmat4(1), static_cast<double>(turn), glm::dvec3(0, 1, 0)));
     const Sh9Color turned = rotate(sh_rotation(rotation), lighting.environment->radiance_sh);
-    // Irradiance / pi: what white reflects. The cosine's convolution is pi, 2 pi / 3 and pi / 4 by band.
-    constexpr std::array<double, 9> share = {1, 2.0 / 3, 2.0 / 3, 2.0 / 3, 0.25, 0.25, 0.25, 0.25, 0.25};
     for (std::size_t i = 0; i < 9; ++i) {
-        block.ambient_sh[i] = glm::vec4(glm::vec3(turned[i] * share[i] * static_cast<double>(factor)), 0);
+        out[i] = glm::vec4(glm::vec3(turned[i] * white_share_of_band[i] * static_cast<double>(factor)), 0);
     }
     // The darkest side of the map as the roughest mirror sees it: a vertex is open to more than a texel.
     glm::vec3 least(std::numeric_limits<float>::max());
@@ -58,11 +62,11 @@ void write_ambient(const FrameState& frame, shared::FrameBlock& block) {
         float& channel = least[static_cast<glm::length_t>(i % 3)];
         channel = std::min(channel, factor * blurred.rgb_linear[i]);
     }
-    write_least(least, block);
-    block.environment = {factor, static_cast<float>(lighting.environment->levels.size()) - 1, turn, 0};
+    write_least(least, out);
+    return out;
 }
 
-void bind_environment(FrameState& frame) {
+void bind_environment(FrameState& frame, std::uint32_t unit) {
     auto& map = frame.scene->own<EnvironmentMap>();
     const Environment& environment = *frame.lighting->environment;
     if (map.identity != environment.identity) {
@@ -82,8 +86,8 @@ void bind_environment(FrameState& frame) {
         glSamplerParameteri(map.sampler.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
         map.identity = environment.identity;
     }
-    glBindTextureUnit(BLUSH_ENVIRONMENT_UNIT, map.texture.name());
-    glBindSampler(BLUSH_ENVIRONMENT_UNIT, map.sampler.name());
+    glBindTextureUnit(unit, map.texture.name());
+    glBindSampler(unit, map.sampler.name());
 }
 
 }  // namespace blush

@@ -3,22 +3,7 @@
 #include <array>
 #include <numbers>
 
-#include "runtime/frame/effect.h"
-
 namespace blush {
-
-static_assert(most_occlusion_poses <= 4 * std::extent_v<decltype(shared::FrameBlock::occlusion_weights)>);
-
-void write_occlusion_weights(const CharacterState& character, shared::FrameBlock& block) {
-    const OcclusionSet& set = *character.facts_of_face.occlusion;
-    std::array<float, most_occlusion_poses> weights{};
-    occlusion_weights(set, character.face, character.pose.weights, std::span(weights).first(set.poses.size()));
-    for (std::size_t p = 0; p < set.poses.size(); ++p) {
-        block.occlusion_weights[p / 4][static_cast<glm::length_t>(p % 4)] = weights[p];
-    }
-    block.occlusion_poses = {static_cast<int>(set.poses.size()), static_cast<int>(character.face.positions.size()),
-                             character.settings.choice(occlusion_effect.name, "bounces") == 0 ? 1 : 0, 0};
-}
 
 std::vector<glm::vec4> packed_occlusion(const OcclusionSet& set) {
     constexpr auto pi = std::numbers::pi_v<float>;

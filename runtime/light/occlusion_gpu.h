@@ -5,9 +5,6 @@
 
 namespace blush {
 
-/// Fills the block's poses and their weights. The face must have coefficients.
-void write_occlusion_weights(const CharacterState& character, shared::FrameBlock& block);
-
 /// Binds the coefficients, uploaded when first asked for.
 void bind_occlusion(CharacterState& character);
 

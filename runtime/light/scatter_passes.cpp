@@ -50,6 +50,20 @@ const gl::Program& ScatterPasses::program(Kind kind, bool composite, bool many) 
     return kept;
 }
 
+void ScatterPasses::require(ScatterMethod method, std::uint32_t taps, bool many) {
+    if (method == ScatterMethod::separable) {
+        const auto kind = static_cast<Kind>((taps - 9) / 8);
+        program(kind, false, many);
+        program(kind, true, many);
+    } else if (method == ScatterMethod::jittered) {
+        program(Kind::jittered, true, many);
+    } else if (method != ScatterMethod::off) {
+        program(Kind::gaussian, false, many);
+        program(Kind::plain, false, many);
+        program(Kind::plain, true, many);
+    }
+}
+
 void ScatterPasses::begin(const ScatterInput& input, const gl::Program& used, GLuint light, GLuint target) {
     glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, target, 0);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());

@@ -50,6 +50,8 @@ struct ScatterScratch {
 
 class ScatterPasses {
 public:
+    /// Makes the programs of a method ahead. taps: of a separable pass. many: with a table.
+    void require(ScatterMethod method, std::uint32_t taps, bool many);
     /// Two passes. The second one adds its result, times the albedo, to `scene`; pixels without skin are not touched.
     /// Needs scratch.first and .stencil.
     void separable(const ScatterInput& input, const std::vector<KernelTap>& taps, const ScatterScratch& scratch,

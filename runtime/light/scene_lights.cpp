@@ -45,23 +45,26 @@ LightSource from_camera(const glm::dmat4& world_from_view, glm::vec3 towards_vie
     return light;
 }
 
+/// Half angle of the narrowest cone.
+constexpr float narrowest_radians = 1e-3F;
+
 /// The greatest radiance that white can reflect of a light anywhere in a sphere.
 double greatest_radiance(const LightSource& light, glm::dvec3 centre, double radius) {
     const glm::vec3 rgb = light.radiance_linear;
     const double brightest = static_cast<double>(std::max({rgb.x, rgb.y, rgb.z}));
     if (light.kind == LightKind::directional) return brightest;
     const glm::dvec3 to = centre - light.position_world;
-    const double distance = glm::length(to), nearest = std::max(distance - radius, 1e-3 * distance);
+    const double distance = glm::length(to), nearest = std::max(distance - radius, 0.0);
     if (light.kind == LightKind::spot && distance > radius) {
         // The sphere is seen from the light under this angle; beyond the cone it gets nothing at all.
         const double half = std::asin(radius / distance);
         const glm::dvec3 along = glm::normalize(glm::dvec3(light.direction_world));
         const double off = std::acos(std::clamp(glm::dot(along, to) / distance, -1.0, 1.0));
-        if (off - half > static_cast<double>(light.outer_radians)) return 0;
+        if (off - half > static_cast<double>(std::max(light.outer_radians, narrowest_radians))) return 0;
     }
     const double reference = static_cast<double>(light.reference_distance);
-    return nearest > 0 ? brightest * reference * reference / (nearest * nearest)
-                       : std::numeric_limits<double>::infinity();
+    // As near as shaders/light/arriving.glsl takes any place to be.
+    return brightest * reference * reference / std::max(nearest * nearest, 1e-6 * reference * reference);
 }
 
 }  // namespace
@@ -128,7 +131,7 @@ shared::Light shader_light(const LightSource& source, glm::dvec3 origin_world) {
     light.shadow = glm::vec4(-1, 0, 0, 0);
     if (source.kind == LightKind::spot) {
         constexpr float widest_radians = 1.55F;  // below a half circle: beyond it the cone has no rim
-        const float outer = std::clamp(source.outer_radians, 1e-3F, widest_radians);
+        const float outer = std::clamp(source.outer_radians, narrowest_radians, widest_radians);
         light.cone_world.w = std::cos(outer);
         light.shadow.y = std::cos(std::clamp(source.inner_radians, 0.0F, outer));
     }

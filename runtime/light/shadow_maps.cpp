@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/effects/shared_settings.h"
+
 namespace blush {
 namespace {
 
 /// Side of a map as the settings want it; smaller where so many maps would not fit.
 std::uint32_t map_side(const FrameState& frame, std::size_t count) {
-    std::uint32_t side = 512U << frame.scene->settings.choice("shadows", "size");
+    std::uint32_t side = 512U << frame.scene->settings.choice(shadows_size);
     const auto largest = static_cast<std::uint64_t>(frame.device.info().largest_texture_side_texels);
     constexpr std::uint32_t least_side = 64;
     const auto fits = [&](std::uint64_t s) {
@@ -59,20 +61,19 @@ bool casts_into(const LightSource& light, const CharacterState& caster, const Ch
 void place_shadow_maps(FrameState& frame) {
     auto& maps = frame.scene->own<ShadowMaps>();
     maps.maps.clear();
-    const bool off = frame.scene->settings.choice("shadows", "method") == 1;
-    const bool sharp = frame.scene->settings.choice("shadows", "edges") == 1;
+    const bool off = frame.scene->settings.choice(shadows_method) == 1;
+    const bool sharp = frame.scene->settings.choice(shadows_edges) == 1;
     for (CharacterState* character : frame.characters) {
-        character->shader_lights.clear();
-        character->shadow_lights = 0;
-        for (const std::uint32_t l : character->reaching) {
+        if (off) continue;
+        for (std::size_t k = 0; k < character->reaching.size(); ++k) {
+            const std::uint32_t l = character->reaching[k];
             const LightSource& source = frame.lights[l];
-            character->shader_lights.push_back(shader_light(source, character->origin_world));
-            if (off || !source.casts_shadow) continue;
+            if (!source.casts_shadow) continue;
             const std::optional<ShadowPlace> place = place_shadow_map(
                 source, character->centre_world, character->radius_world, nearest_caster(frame, source, *character));
             if (!place) continue;
             // The tile follows once all maps are counted.
-            character->shader_lights.back().shadow.x = static_cast<float>(maps.maps.size());
+            character->shader_lights[k].shadow.x = static_cast<float>(maps.maps.size());
             ++character->shadow_lights;
             maps.maps.push_back({character->index, l, *place, {}});
         }

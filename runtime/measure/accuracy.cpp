@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "rig/head/face_scale.h"
-#include "runtime/frame/effect.h"
+#include "runtime/measure/studies.h"
 
 namespace blush {
 namespace {
@@ -72,13 +72,18 @@ Result<AccuracyReport> measure_accuracy(const Device& device, const Face& face, 
         options.millimetres_a_unit > 0 ? options.millimetres_a_unit : face_scale(face).millimetres_a_unit;
     std::string known;
     bool found = false;
-    for (const Effect* effect : effects()) {
-        known += (known.empty() ? "" : ", ") + std::string(effect->name);
-        if (!options.effect.empty() && effect->name != options.effect) continue;
+    for (const Studied& what : studied()) {
+        const std::string name(what.name);
+        known += (known.empty() ? "" : ", ") + name;
+        if (!options.effect.empty() && name != options.effect) continue;
         found = true;
-        for (const Study& study : effect->studies(device, face, report.millimetres_a_unit, options.quick)) {
-            if (options.progress) options.progress(std::string(effect->name) + ": " + study.name);
-            if (!study.variants.empty()) report.studies.push_back(measure(study, effect->name, report.rounds));
+        if (what.make == nullptr) {
+            if (options.effect.empty()) continue;
+            return Error{name + " has no study, since " + std::string(what.why_none)};
+        }
+        for (const Study& study : what.make(device, face, report.millimetres_a_unit, options.quick)) {
+            if (options.progress) options.progress(name + ": " + study.name);
+            if (!study.variants.empty()) report.studies.push_back(measure(study, name, report.rounds));
         }
     }
     if (!found) return Error{"no effect is called \"" + options.effect + "\" (there are: " + known + ")"};

@@ -14,7 +14,7 @@
 namespace blush {
 
 struct AccuracyOptions {
-    std::string effect;             ///< one effect by name, or empty for all
+    std::string effect;             ///< one effect or baker by name, or empty for all
     bool quick = false;             ///< fewer rounds, and only the largest study of each effect
     double millimetres_a_unit = 0;  ///< scale of the face; 0: found from the face (rig/head/face_scale.h)
     std::function<void(std::string_view)> progress;  ///< called with each study's name as it starts; may be empty
@@ -44,7 +44,7 @@ struct AccuracyReport {
 };
 
 /// Runs the variants of each study in turn (A B C A B C ...), so that a change of the machine's speed meets all alike.
-/// Error: no such effect.
+/// Error: no such effect, or one that has no study.
 Result<AccuracyReport> measure_accuracy(const Device& device, const Face& face, const AccuracyOptions& options);
 
 }  // namespace blush

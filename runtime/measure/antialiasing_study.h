@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/frame/effect.h"
+#include "rig/face.h"
+#include "runtime/device.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 

@@ -5,8 +5,10 @@
 #include <optional>
 #include <span>
 
+#include "rig/face.h"
+#include "runtime/device.h"
 #include "runtime/files/face_appearance.h"
-#include "runtime/frame/effect.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 

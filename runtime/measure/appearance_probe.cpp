@@ -6,6 +6,7 @@
 
 #include "rig/blood/colour_difference.h"
 #include "rig/blood/skin_colour_table.h"
+#include "runtime/draw/shading.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gl/state_guard.h"
 #include "runtime/measure/errors.h"
@@ -56,15 +57,6 @@ std::shared_ptr<AppearanceProbe> AppearanceProbe::create(const Device& device, c
     character->set_appearance(std::move(appearance));
     std::shared_ptr<AppearanceProbe> probe(new AppearanceProbe(*std::move(character)));
     make_common_passes(probe->character_.frame());
-    const auto program = [](std::vector<std::string_view> defines) {
-        Result<gl::Program> made =
-            gl::make_program({"screen.vert", "measure/appearance_probe.frag", std::move(defines)});
-        return made ? *std::move(made) : gl::Program();
-    };
-    probe->derivatives_ = program({"WRINKLES"});
-    probe->differences_ = program({"WRINKLES", "WRINKLE_DIFFERENCES"});
-    probe->blood_ = program({"BLOOD"});
-    probe->nothing_ = program({});
     probe->target_ = gl::make_texture(GL_TEXTURE_2D);
     glTextureStorage2D(probe->target_.name(), 1, GL_RGBA32F, side, side);
     probe->framebuffer_ = gl::make_framebuffer();
@@ -72,10 +64,27 @@ std::shared_ptr<AppearanceProbe> AppearanceProbe::create(const Device& device, c
     return probe;
 }
 
-void AppearanceProbe::draw(const gl::Program& program) {
+void AppearanceProbe::draw(std::string_view effect) {
+    const ShadingLayout& layout = shading_layout(character_.frame().shared);
+    CharacterState& shown = state();
+    Permutation permutation;
+    permutation.model = MaterialKind::skin;
+    for (std::size_t k = 0; k < layout.parts.size(); ++k) {
+        if (layout.parts[k].effect->name != effect) continue;
+        const ShadingPart& part = *layout.parts[k].effect->shading;
+        permutation.shading.parts = 1U << k;
+        if (part.variant != nullptr)
+            permutation.shading.variants = part.variant(character_.frame(), shown) << layout.parts[k].first_variant;
+    }
+    shown.shading = permutation.shading;
+    const Result<gl::Program> program =
+        make_shading_program(character_.frame().shared, permutation, "screen.vert", "measure/appearance_probe.frag");
+    if (!program) return;
+    write_effects_block(character_.frame(), shown);
+    bind_effects(character_.frame(), shown, permutation);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     glViewport(0, 0, side, side);
-    glUseProgram(program.name());
+    glUseProgram(program->name());
     glBindVertexArray(character_.frame().common->no_attributes.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glFinish();
@@ -92,8 +101,7 @@ std::vector<glm::vec3> AppearanceProbe::read() const {
 void AppearanceProbe::draw_normals(float weight) {
     const gl::StateGuard guard;
     std::ranges::fill(state().pose.wrinkles, weight);
-    bind_appearance(state(), true, false);
-    draw(state().settings.choice("wrinkles", "encoding") == 1 ? differences_ : derivatives_);
+    draw("wrinkles");
 }
 
 std::vector<glm::vec3> AppearanceProbe::normals(float weight) {
@@ -134,13 +142,12 @@ Pose AppearanceProbe::pose_of(std::string_view control) {
 void AppearanceProbe::draw_colors(std::string_view control) {
     const gl::StateGuard guard;
     if (control.empty()) {
-        draw(nothing_);
+        draw("");
         return;
     }
     state().pose = pose_of(control);
     blend_blood(character_.frame(), state());
-    bind_appearance(state(), false, true);
-    draw(blood_);
+    draw("blood");
 }
 
 std::vector<glm::vec3> AppearanceProbe::colors(std::string_view control) {

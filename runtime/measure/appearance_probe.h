@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "runtime/appearance/appearance_gpu.h"
-#include "runtime/frame/effect.h"
 #include "runtime/measure/portrait.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 
@@ -37,12 +37,12 @@ public:
 
 private:
     explicit AppearanceProbe(Portrait character) : character_(std::move(character)) {}
-    void draw(const gl::Program& program);
+    /// With the part that an effect has in shading; with none, white.
+    void draw(std::string_view effect);
     std::vector<glm::vec3> read() const;
     Pose pose_of(std::string_view control);
 
     Portrait character_;
-    gl::Program derivatives_, differences_, blood_, nothing_;
     gl::Texture target_;
     gl::Framebuffer framebuffer_;
 };

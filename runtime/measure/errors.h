@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "runtime/frame/effect.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "runtime/frame/effect.h"
+#include "rig/face.h"
+#include "runtime/device.h"
+#include "runtime/lighting.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 

@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "runtime/frame/effect.h"
+#include <glm/glm.hpp>
+
+#include "runtime/device.h"
+#include "runtime/lighting.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 

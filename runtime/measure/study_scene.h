@@ -6,8 +6,8 @@
 
 #include "rig/deform/deform_exact.h"
 #include "runtime/frame/character_state.h"
-#include "runtime/frame/effect.h"
 #include "runtime/measure/portrait.h"
+#include "runtime/measure/study.h"
 
 namespace blush {
 

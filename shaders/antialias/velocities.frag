@@ -5,7 +5,7 @@ in vec4 clip;
 in vec4 last_clip;
 #ifdef ALPHA_TEST
 in vec2 base_color_uv;
-layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
+layout(binding = BASE_COLOR_MAP) uniform sampler2D base_color_map;
 #endif
 
 // Length, x, y; and how far before the far plane the surface was in the last frame: 1 - window depth, which half floats

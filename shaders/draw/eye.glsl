@@ -20,7 +20,7 @@ Surface eye_surface(Interpolants at) {
 Lighting eye_lighting(Surface s) {
     vec3 view = towards_camera(s.position);
     // A film of tears lies over everything: its own reflection (1.336) and nothing rougher below.
-    Gloss film = Gloss(vec3(0.0207), gloss_of(s).f90, parts.w);
+    Gloss film = Gloss(vec3(0.0207), gloss_of(s).f90, parts.tear_roughness);
     Ambient around = hook_ambient(s, reflect(-view, s.normal));
     around.white *= s.exposed;
     around.mirrored *= s.exposed;

@@ -15,11 +15,11 @@ struct Eye {
 
 Eye eye_here(vec3 place) {
     Eye eye;
-    eye.index = eye_data.x == 0 ? -1 : distance(place, eyes[0].xyz) <= distance(place, eyes[1].xyz) ? 0 : 1;
+    eye.index = parts.eyes_known == 0 ? -1 : distance(place, parts.eyes[0].xyz) <= distance(place, parts.eyes[1].xyz) ? 0 : 1;
     if (eye.index < 0) return eye;
-    eye.centre = eyes[eye.index].xyz;
-    eye.radius = eyes[eye.index].w;
-    vec3 pole = (world_from_mesh * vec4(surface_position(eye.index == 0 ? eye_data.y : eye_data.z), 1.0)).xyz;
+    eye.centre = parts.eyes[eye.index].xyz;
+    eye.radius = parts.eyes[eye.index].w;
+    vec3 pole = (world_from_mesh * vec4(surface_position(eye.index == 0 ? parts.first_pole : parts.second_pole), 1.0)).xyz;
     eye.axis = unit_or(pole - eye.centre, vec3(0.0, 0.0, 1.0));
     return eye;
 }

@@ -1,5 +1,6 @@
 // Places the deformed surface in the world. Reads what the deformation passes wrote; deforms nothing itself.
 #include "shared.glsl"
+#insert uniforms
 
 layout(location = BLUSH_POSITION_ATTRIBUTE) in vec3 position;
 layout(location = BLUSH_NORMAL_ATTRIBUTE) in vec3 normal;
@@ -15,10 +16,10 @@ centroid out vec3 normal_world;
 centroid out vec4 tangent_world;
 centroid out vec2 layout_uv;      // of the face's own maps
 centroid out vec2 texture_uv[6];  // of each texture of the material, in the order of MaterialBlock
-#ifdef AMBIENT_OCCLUSION
+#ifdef CALLS_VISIBILITY
 centroid out vec4 ambient_visibility;  // rgb: share of the ambient light that arrives; a: share of the open directions
-#include "light/occlusion.glsl"
 #endif
+#insert vertex_effects
 
 vec2 transformed(int texture_index, int uv_set) {
     vec3 uv = vec3(uv_set == 1 ? uv1 : uv0, 1.0);
@@ -34,8 +35,10 @@ void main() {
     texture_uv[4] = transformed(4, emissive_uv_set.x);
     texture_uv[5] = transformed(5, emissive_uv_set.y);
     layout_uv = uv0;
-#ifdef AMBIENT_OCCLUSION
-    ambient_visibility = ambient_share(normal_world, tangent_world.xyz);
+#ifdef CALLS_VISIBILITY
+    vec4 visibility = vec4(1.0);
+#call visibility(normal_world, tangent_world.xyz, visibility)
+    ambient_visibility = visibility;
 #endif
     gl_Position = clip_from_world * world;
 }

@@ -3,7 +3,7 @@
 #include "shared.glsl"
 
 #ifdef BASE_COLOR_MAP
-layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
+layout(binding = BASE_COLOR_MAP) uniform sampler2D base_color_map;
 in vec2 texture_uv[6];
 #endif
 

@@ -10,7 +10,7 @@ float over_iris(Eye eye, vec3 place) {
 // and meets the plane of the iris, which stands behind the limbus. A texture is painted as if it lay on the surface, so
 // that the offset on the plane is taken to texture coordinates by the derivatives of both.
 vec2 iris_offset(Eye eye, Interpolants at) {
-    if (eye.index < 0 || parts.y == 0.0) return vec2(0.0);
+    if (eye.index < 0 || parts.iris_depth == 0.0) return vec2(0.0);
     vec3 place = at.position_world, px = at.position_dx, py = at.position_dy;
     vec3 view = towards_camera(place);
     vec3 inward = refract(-view, unit_or(at.normal_world, view), 1.0 / 1.336);
@@ -24,7 +24,7 @@ vec2 iris_offset(Eye eye, Interpolants at) {
     float determinant = xx * yy - xy * xy;
     if (!(determinant > 1e-4 * xx * yy)) return vec2(0.0);
     vec2 pixels = vec2(x * yy - y * xy, y * xx - x * xy) / determinant;
-    return parts.y * over_iris(eye, place) * (pixels.x * at.texture_uv[0].dx + pixels.y * at.texture_uv[0].dy);
+    return parts.iris_depth * over_iris(eye, place) * (pixels.x * at.texture_uv[0].dx + pixels.y * at.texture_uv[0].dy);
 }
 
 // The iris is a shallow bowl: light from one side brightens the other.

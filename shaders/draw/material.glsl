@@ -1,12 +1,24 @@
 // The record as a glTF 2.0 material's factors and maps have it (metallic-roughness). A map that the material lacks is not
-// fetched: BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP, EMISSIVE_MAP, SPECULAR_MAP.
+// fetched; of those that it has, BASE_COLOR_MAP, METALLIC_ROUGHNESS_MAP, NORMAL_MAP, OCCLUSION_MAP, EMISSIVE_MAP and SPECULAR_MAP are the units.
 
-layout(binding = BLUSH_BASE_COLOR_UNIT) uniform sampler2D base_color_map;
-layout(binding = BLUSH_METALLIC_ROUGHNESS_UNIT) uniform sampler2D metallic_roughness_map;
-layout(binding = BLUSH_NORMAL_MAP_UNIT) uniform sampler2D normal_map;
-layout(binding = BLUSH_OCCLUSION_UNIT) uniform sampler2D occlusion_map;
-layout(binding = BLUSH_EMISSIVE_UNIT) uniform sampler2D emissive_map;
-layout(binding = BLUSH_SPECULAR_UNIT) uniform sampler2D specular_map;
+#ifdef BASE_COLOR_MAP
+layout(binding = BASE_COLOR_MAP) uniform sampler2D base_color_map;
+#endif
+#ifdef METALLIC_ROUGHNESS_MAP
+layout(binding = METALLIC_ROUGHNESS_MAP) uniform sampler2D metallic_roughness_map;
+#endif
+#ifdef NORMAL_MAP
+layout(binding = NORMAL_MAP) uniform sampler2D normal_map;
+#endif
+#ifdef OCCLUSION_MAP
+layout(binding = OCCLUSION_MAP) uniform sampler2D occlusion_map;
+#endif
+#ifdef EMISSIVE_MAP
+layout(binding = EMISSIVE_MAP) uniform sampler2D emissive_map;
+#endif
+#ifdef SPECULAR_MAP
+layout(binding = SPECULAR_MAP) uniform sampler2D specular_map;
+#endif
 
 vec4 material_color(Interpolants at) {
     vec4 color = base_color_linear;

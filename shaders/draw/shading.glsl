@@ -2,6 +2,7 @@
 // a compute shader). Each file stands on those above it. None includes what another one needs: an include in a branch that
 // is not compiled counts as done.
 #include "shared.glsl"
+#insert uniforms
 #include "vectors.glsl"
 #include "draw/interpolants.glsl"
 #include "draw/surface.glsl"

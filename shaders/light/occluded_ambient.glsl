@@ -5,7 +5,7 @@ void occlusion_ambient(Surface s, vec3 mirror, inout Ambient around) {
     vec4 visible = clamp(s.visibility, 0.0, 1.0);
     around.white *= visible.rgb;
     // What hides a place shines as it does itself: with_bounces() in rig/light/occlusion.cpp.
-    if (occlusion_poses.z != 0) {
+    if (occlusion.bounces != 0) {
         around.white /= max(1.0 - min(diffuse_color(s), vec3(1.0)) * (1.0 - visible.a), vec3(1e-3));
     }
     around.mirrored *= visible.a;

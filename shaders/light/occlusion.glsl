@@ -5,7 +5,7 @@
 // has in their band, so that those of an open vertex are the basis functions of its normal.
 layout(std430, binding = BLUSH_OCCLUSION_BINDING) readonly buffer OcclusionCoefficients { vec4 transfer[]; };
 
-// Radiance that white reflects, by nine coefficients; environment_white() before it is kept above 0.
+// Radiance that white reflects, by nine coefficients; sum_of_sh() of a direction's functions.
 vec3 gathered(vec4 h0, vec4 h1, float h8) {
     return h0.x * ambient_sh[0].rgb + h0.y * ambient_sh[1].rgb + h0.z * ambient_sh[2].rgb + h0.w * ambient_sh[3].rgb +
            h1.x * ambient_sh[4].rgb + h1.y * ambient_sh[5].rgb + h1.z * ambient_sh[6].rgb + h1.w * ambient_sh[7].rgb +
@@ -16,10 +16,10 @@ vec3 gathered(vec4 h0, vec4 h1, float h8) {
 vec4 ambient_share(vec3 normal, vec3 tangent) {
     vec4 a = vec4(0.0), b = vec4(0.0);
     float c = 0.0;
-    for (int pose = 0; pose < occlusion_poses.x; ++pose) {
-        float weight = occlusion_weights[pose >> 2][pose & 3];
+    for (int pose = 0; pose < occlusion.poses; ++pose) {
+        float weight = occlusion.weights[pose >> 2][pose & 3];
         if (weight == 0.0) continue;
-        int at = 3 * (pose * occlusion_poses.y + gl_VertexID);
+        int at = 3 * (pose * occlusion.vertices + gl_VertexID);
         a += weight * transfer[at];
         b += weight * transfer[at + 1];
         c += weight * transfer[at + 2].x;
@@ -55,3 +55,5 @@ vec4 ambient_share(vec3 normal, vec3 tangent) {
     }
     return vec4(share, directions);
 }
+
+void occlusion_visibility(vec3 normal, vec3 tangent, inout vec4 visibility) { visibility = ambient_share(normal, tangent); }

@@ -2,7 +2,9 @@
 // with bilinear weights (chappuis-2011, 2.4, filters 4 x 4 at equal weights, which steps where it crosses a texel).
 // Twin: the tests' own ray caster.
 
-layout(binding = BLUSH_SHADOW_UNIT) uniform sampler2D shadow_map;
+#include "light/percentage_closer.glsl"
+
+layout(binding = SHADOWS_UNIT) uniform sampler2D shadow_map;
 
 // Distances along the light's axis of depths in its map, world units.
 vec4 shadow_distances(Light light, vec4 z) {
@@ -108,23 +110,9 @@ float lit_share(Light light, InMap map, Surface s, vec3 l) {
     vec2 middle = shadow_texel(light, place.xy);
     // What strands hide from each other is as broken up as they are: no soft edge shows.
     if (s.model == model_hair) return lit_texels(light, middle, distance_here, 1.0 / vec2(textureSize(shadow_map, 0)));
-    vec2 at = middle - 0.5;
-    vec2 part = fract(at);
-    // 4 x 4 texels by four gathers; the outer rows and columns count in part.
-    vec2 texel_uv = 1.0 / vec2(textureSize(shadow_map, 0));
-    vec2 corner = floor(at);
-    vec4 weight_x = vec4(1.0 - part.x, 1.0, 1.0, part.x), weight_y = vec4(1.0 - part.y, 1.0, 1.0, part.y);
-    float sum = 0.0;
-    for (int y = 0; y < 2; ++y) {
-        for (int x = 0; x < 2; ++x) {
-            // Order of a gather: (0, 1), (1, 1), (1, 0), (0, 0).
-            vec4 lit = step(vec4(here), textureGather(shadow_map, (corner + vec2(2 * x, 2 * y)) * texel_uv));
-            vec2 wx = x == 0 ? weight_x.xy : weight_x.zw, wy = y == 0 ? weight_y.xy : weight_y.zw;
-            sum += wy.y * (wx.x * lit.x + wx.y * lit.y) + wy.x * (wx.y * lit.z + wx.x * lit.w);
-        }
-    }
-    if (light.shadow_depth.z == 0.0) return sum / 9.0;
-    return soft_share(light, middle, distance_here, texel, s.vertex_normal, l, sum / 9.0);
+    float sharp = share_beyond(shadow_map, middle, here, false);
+    if (light.shadow_depth.z == 0.0) return sharp;
+    return soft_share(light, middle, distance_here, texel, s.vertex_normal, l, sharp);
 }
 
 void shadows_lit(Surface s, Light light, vec3 l, inout float share) { share *= lit_share(light, in_map(light, s), s, l); }

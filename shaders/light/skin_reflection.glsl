@@ -1,8 +1,8 @@
 // The surface of skin: Kelemen and Szirmay-Kalos 2001 with Beckmann's distribution from a table, Schlick's Fresnel term,
 // and the light that it leaves for what is below (chappuis-2011, 2.3 and 2.6). Twin: rig/light/skin_reflectance.cpp.
 
-layout(binding = BLUSH_BECKMANN_UNIT) uniform sampler2D beckmann_map;  // 0.5 D^0.1 by n.h and roughness
-layout(binding = BLUSH_SPECULAR_ALBEDO_UNIT) uniform sampler2D specular_albedo_map;  // r: by n.l and roughness; g: mean
+layout(binding = REFLECTION_UNIT) uniform sampler2D beckmann_map;             // 0.5 D^0.1 by n.h and roughness
+layout(binding = REFLECTION_UNIT + 1) uniform sampler2D specular_albedo_map;  // r: by n.l and roughness; g: mean
 
 // Reflectance at normal incidence of an index of refraction of 1.4 (d'Eon and Luebke 2007). rig/light/skin_reflectance.h.
 const float skin_f0 = 0.028;
@@ -27,10 +27,10 @@ float skin_specular(vec3 n, vec3 h, vec3 view, float roughness) {
     return distribution * fresnel / (pi * h2);
 }
 
-float skin_roughness(Surface s) { return clamp(skin.z * (s.roughness / 0.5), 0.08, 0.95); }
+float skin_roughness(Surface s) { return clamp(reflection.roughness * (s.roughness / 0.5), 0.08, 0.95); }
 
 void reflection_split(Surface s, vec3 view, vec3 l, inout Split split) {
-    float roughness = skin_roughness(s), intensity = skin.w * s.specular;
+    float roughness = skin_roughness(s), intensity = reflection.intensity * s.specular;
     split.entering = vec3(1.0 - intensity * specular_albedo(dot(s.normal, l), roughness).x);
     split.reflected = vec3(pi * intensity * skin_specular(s.normal, l + view, view, roughness));
 }
@@ -39,7 +39,7 @@ void reflection_split(Surface s, vec3 view, vec3 l, inout Split split) {
 // below and is sent back at the surface leaves elsewhere: the division by what the surface lets out on the average keeps a
 // white furnace white (Kelemen and Szirmay-Kalos 2001, 3). chappuis-2011, 2.6, leaves it out and loses some 4 %.
 void reflection_around(Surface s, vec3 view, Ambient around, inout Lighting lit) {
-    vec2 mirror = skin.w * s.specular * specular_albedo(cosine_to_view(s, view), skin_roughness(s));
+    vec2 mirror = reflection.intensity * s.specular * specular_albedo(cosine_to_view(s, view), skin_roughness(s));
     lit.entering = around.white * s.occlusion * (1.0 - mirror.y);
     lit.reflected = around.mirrored * s.occlusion * mirror.x;
     lit.leaving = vec3((1.0 - mirror.x) / (1.0 - mirror.y));

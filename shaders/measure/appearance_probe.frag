@@ -1,29 +1,24 @@
 // Appearance laid out flat: the wrinkled normal, or the colour that blood gives to white, over the texture. What studies
 // and tests compare with the CPU.
 #include "shared.glsl"
+#insert uniforms
 #include "vectors.glsl"
 #include "draw/interpolants.glsl"
 #include "draw/relief.glsl"
-#ifdef WRINKLES
-#include "wrinkles/wrinkles.glsl"
-#endif
-#ifdef BLOOD
-#include "blood/blood.glsl"
-#endif
+#insert effects
 
 in vec2 screen_uv;
 layout(location = 0) out vec4 result;
 
 void main() {
-    result = vec4(1.0);
     Interpolants at;
     at.layout_uv = Uv(screen_uv, dFdx(screen_uv), dFdy(screen_uv));
-#ifdef WRINKLES
     Relief relief = Relief(vec3(0.0, 0.0, 1.0), false);
-    wrinkles_relief(at, relief);
-    result = vec4(normalize(relief.normal), 1.0);
+    vec3 color = vec3(1.0);
+#call relief(at, relief)
+#call colour(at, color)
+#ifdef CALLS_RELIEF
+    color = normalize(relief.normal);
 #endif
-#ifdef BLOOD
-    blood_colour(at, result.rgb);
-#endif
+    result = vec4(color, 1.0);
 }

@@ -1,20 +1,20 @@
 // Wrinkles on the base normal (jimenez-2012, 8.2, listing 8.1). The zones share one map, so that their weighted masks are
 // summed before it is read: the eight additions of the listing become one.
-layout(binding = BLUSH_WRINKLE_MAP_UNIT) uniform sampler2D wrinkle_map;
-layout(binding = BLUSH_WRINKLE_MASKS_UNIT) uniform sampler2DArray wrinkle_masks;
+layout(binding = WRINKLES_UNIT) uniform sampler2D wrinkle_map;
+layout(binding = WRINKLES_UNIT + 1) uniform sampler2DArray wrinkle_masks;
 
 // Texture coordinates of the wrinkle maps, which may show a part of the layout.
 Uv wrinkle_uv(Uv layout_uv) {
-    return Uv(layout_uv.at * wrinkle_part.xy + wrinkle_part.zw, layout_uv.dx * wrinkle_part.xy,
-              layout_uv.dy * wrinkle_part.xy);
+    return Uv(layout_uv.at * wrinkles.part.xy + wrinkles.part.zw, layout_uv.dx * wrinkles.part.xy,
+              layout_uv.dy * wrinkles.part.xy);
 }
 
 float wrinkle_strength(Uv uv) {
     float strength = 0.0;
     for (int mask = 0; mask < BLUSH_MOST_WRINKLE_MASKS; ++mask) {
         // A mask of which no zone acts is not read: the same for the whole draw.
-        if (wrinkle_weights[mask] == vec4(0.0)) continue;
-        strength += dot(texture(wrinkle_masks, vec3(uv.at, mask)), wrinkle_weights[mask]);
+        if (wrinkles.weights[mask] == vec4(0.0)) continue;
+        strength += dot(texture(wrinkle_masks, vec3(uv.at, mask)), wrinkles.weights[mask]);
     }
     return strength;
 }
@@ -28,7 +28,7 @@ vec3 wrinkled(vec3 base, Uv uv, float strength) {
     base = length2 > 1e-12 ? base * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
     return base + sampled(wrinkle_map, uv).xyz * strength;
 #else
-    base.xy += base.z * (sampled(wrinkle_map, uv).xy * (strength * wrinkle_range.x));
+    base.xy += base.z * (sampled(wrinkle_map, uv).xy * (strength * wrinkles.range));
     return base;
 #endif
 }

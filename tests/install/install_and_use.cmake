@@ -1,4 +1,4 @@
-# cmake -DBUILD=... -DSOURCE=... -DFOLDER=... -DCXX=... -DLAUNCHER=... -DBUILD_TYPE=... -DSANITIZE=... -P install_and_use.cmake
+# cmake -DBUILD=... -DSOURCE=... -DFOLDER=... -DCXX=... -DLAUNCHER=... -DBUILD_TYPE=... -DSANITIZE=... -DFACE=... -P install_and_use.cmake
 # Installs the library into a folder of its own, then configures, builds and runs a project that finds it there.
 file(REMOVE_RECURSE ${FOLDER})
 function(step)
@@ -15,6 +15,7 @@ step(${CMAKE_COMMAND} --build ${FOLDER}/build)
 step(${FOLDER}/build/engine ${FOLDER}/frame.png)
 step(${FOLDER}/build/engine_other_glm ${FOLDER}/frame_other_glm.png)
 step(${CMAKE_COMMAND} -E compare_files ${FOLDER}/frame.png ${FOLDER}/frame_other_glm.png)
+step(${FOLDER}/build/in_a_room ${FACE} ${FOLDER}/in_a_room.png)
 # A sanitizer's runtime has to come first in a program and stays in it.
 if(NOT SANITIZE)
   step(${FOLDER}/build/engine_with_plugin ${FOLDER}/build/libplugin.so)

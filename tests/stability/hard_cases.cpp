@@ -1,10 +1,12 @@
-// Promise 2: every hard case of every effect, with every choice of its settings, leaves only finite values behind.
+// Promise 2: every hard case of every effect, with every choice of its settings, and of every baker leaves only finite
+// values behind.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "runtime/bake/baker.h"
 #include "runtime/frame/effect.h"
 #include "tests/gl_fixture.h"
 
@@ -12,14 +14,18 @@ namespace blush {
 namespace {
 
 struct Case {
-    const Effect* effect;
+    std::string_view of;
+    const Effect* effect;  ///< null: a baker's, whose settings are no frame's (hard_bakes.cpp has them)
     const HardCase* hard;
 };
 
 std::vector<Case> all_cases() {
     std::vector<Case> cases;
     for (const Effect* effect : effects()) {
-        for (const HardCase& hard : effect->hard_cases) cases.push_back({effect, &hard});
+        for (const HardCase& hard : effect->hard_cases) cases.push_back({effect->name, effect, &hard});
+    }
+    for (const Baker* baker : bakers()) {
+        for (const HardCase& hard : baker->hard_cases) cases.push_back({baker->name, nullptr, &hard});
     }
     return cases;
 }
@@ -27,10 +33,11 @@ std::vector<Case> all_cases() {
 /// Calls visit(setting, value) for every choice and both ends of every number among an effect's settings, one at a time
 /// beside defaults; and once for the defaults alone, with an empty name.
 template <class Visit>
-void each_setting_value(const Effect& effect, Visit visit) {
+void each_setting_value(const Effect* effect, Visit visit) {
     visit(std::string(), std::string());
-    for (const Setting& setting : effect.settings) {
-        const std::string name = std::string(effect.name) + "." + std::string(setting.name);
+    if (effect == nullptr) return;
+    for (const Setting& setting : effect->settings) {
+        const std::string name = std::string(effect->name) + "." + std::string(setting.name);
         for (const std::string_view choice : setting.choices) visit(name, std::string(choice));
         if (!setting.choices.empty()) continue;
         visit(name, std::to_string(setting.lowest));
@@ -39,7 +46,7 @@ void each_setting_value(const Effect& effect, Visit visit) {
 }
 
 std::string name_of(const testing::TestParamInfo<Case>& info) {
-    std::string name = std::string(info.param.effect->name) + "_" + std::string(info.param.hard->name);
+    std::string name = std::string(info.param.of) + "_" + std::string(info.param.hard->name);
     for (char& c : name) {
         if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     }
@@ -83,18 +90,19 @@ TEST_P(HardCases, StayFinite) {
     const HardCase* hard = GetParam().hard;
     SCOPED_TRACE(std::string(hard->name) + ": " + std::string(hard->expectation));
     for (const bool normal_deltas : {false, true}) {
-        if (normal_deltas && effect->stage != Stage::surface) break;  // the same to what only reads the surface
+        // The same to what only reads the surface.
+        if (normal_deltas && (effect == nullptr || effect->stage != Stage::surface)) break;
         Face face = test::make_face({.side = 14,
                                      .targets = 2,
                                      .normal_deltas = normal_deltas,
                                      .tangent_deltas = normal_deltas,
                                      .seam = true,
                                      .normal_map = true,
-                                     .joints = effect->name == "skinning"});
+                                     .joints = GetParam().of == "skinning"});
         hard->make(face);
         const Status valid = validate(face);
         ASSERT_TRUE(valid) << valid.error().message;
-        each_setting_value(*effect, [&](const std::string& setting, const std::string& value) {
+        each_setting_value(effect, [&](const std::string& setting, const std::string& value) {
             SCOPED_TRACE(setting + "=" + value);
             expect_sound(face, *hard, setting, value);
         });

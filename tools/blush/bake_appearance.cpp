@@ -240,7 +240,7 @@ void add_bake_appearance(Command& bake_command) {
     command.option("--patterns", &options->patterns, "Folder of hemoglobin patterns instead of the shipped ones");
     command.option("--from", &options->from,
                    "Another face with maps beside it: its expressions' blood instead of the shipped patterns");
-    options->baker.add_to(command, appearance_baking_effect);
+    options->baker.add_to(command, appearance_baker);
     command.option("--melanin", &options->typical_melanin, "Melanin fraction of the typical skin, where known")
         .range(0, largest_melanin);
     command.option("--hemoglobin", &options->typical_hemoglobin, "Hemoglobin fraction of the typical skin, where known")

@@ -89,7 +89,7 @@ void add_bake_wrinkles(Command& bake_command) {
         bake_command.subcommand("wrinkles", "Wrinkle maps out of how the face's expressions press its skin together");
     command.option("FACE", &options->face, "A .glb, .gltf or .obj file, or \"default\"").required();
     command.option("-o,--output", &options->output, "Folder for the maps, such as FACE.appearance").required();
-    options->baker.add_to(command, wrinkle_baking_effect);
+    options->baker.add_to(command, wrinkle_baker);
     command.option("--millimetres-per-unit", &options->millimetres_a_unit, "Scale of the mesh; told by the pupils")
         .range(1e-6, 1e6);
     command.flag("--displacement", options->displacement, "Also write displacement_mm.exr");

@@ -4,8 +4,8 @@
 
 namespace blush::tool {
 
-void BakerOptions::add_to(Command& command, const Effect& effect) {
-    for (const Setting& setting : effect.settings) {
+void BakerOptions::add_to(Command& command, const Baker& baker) {
+    for (const Setting& setting : baker.settings) {
         std::string flag = "--" + std::string(setting.name);
         std::ranges::replace(flag, '_', '-');
         std::string meaning(setting.meaning);

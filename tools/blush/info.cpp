@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "rig/far_vertices.h"
 #include "rig/head/face_scale.h"
 #include "runtime/files/face_file.h"
 #include "tools/blush/assets.h"
@@ -43,6 +44,7 @@ Json describe(const Face& face) {
     json["triangles"] = face.indices.size() / 3;
     const FaceScale scale = face_scale(face);
     json["scale"] = {{"millimetres_a_unit", scale.millimetres_a_unit}, {"told_by", scale.told_by}};
+    json["float_step_mm"] = float_step(face) * scale.millimetres_a_unit;
     json["meshes"] = Json::array();
     for (const Mesh& mesh : face.meshes) {
         json["meshes"].push_back({{"name", mesh.name},
@@ -94,7 +96,8 @@ void print(const Json& json) {
     std::cout << text(json["file"]) << ": " << json["vertices"] << " vertices, " << json["triangles"] << " triangles, "
               << json["nodes"] << " nodes, " << json["skins"] << " skins\n"
               << "scale: " << json["scale"]["millimetres_a_unit"].get<float>() << " mm a unit, since "
-              << text(json["scale"]["told_by"]) << "\n";
+              << text(json["scale"]["told_by"]) << "\n"
+              << "vertices: neighbouring floats are " << json["float_step_mm"].get<float>() << " mm apart, at most\n";
     std::cout << "\nmeshes (" << json["meshes"].size() << ")\n";
     for (const Json& mesh : json["meshes"]) {
         std::cout << "  " << (text(mesh["name"]).empty() ? "(unnamed)" : text(mesh["name"])) << ": " << mesh["vertices"]

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 #include <unordered_map>
 
 #include "rig/controls/head_and_eyes.h"
 #include "rig/controls/rig.h"
+#include "rig/far_vertices.h"
+#include "rig/head/face_scale.h"
 #include "rig/names.h"
 #include "runtime/files/face_file.h"
 #include "runtime/files/rig_description_file.h"
@@ -27,6 +30,7 @@ public:
         for (const Target& target : face_.targets) shape(target);
         equal_shapes();
         surface();
+        places();
         pivots();
         rig();
         return std::move(findings_);
@@ -134,6 +138,17 @@ private:
             add("triangles",
                 std::to_string(flat) + " of " + std::to_string(face_.indices.size() / 3) + " have no area");
         if (unused > 0) add("vertices", std::to_string(unused) + " belong to no triangle");
+    }
+
+    void places() {
+        // A pore is some 0.05 mm deep.
+        constexpr double coarse_mm = 0.05;
+        const double step_mm = float_step(face_) * face_scale(face_).millimetres_a_unit;
+        if (!(step_mm > coarse_mm)) return;
+        std::ostringstream sentence;
+        sentence << "they are baked so far from the origin that neighbouring floats are " << step_mm
+                 << " mm apart; a node's translation keeps them fine";
+        add("vertices", sentence.str());
     }
 
     void pivots() {

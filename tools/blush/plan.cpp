@@ -4,8 +4,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "runtime/effects/effects.h"
 #include "runtime/frame/character_state.h"
-#include "runtime/frame/effect.h"
 
 namespace blush::tool {
 namespace {

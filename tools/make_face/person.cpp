@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "rig/blood/skin_colour.h"
 #include "rig/names.h"

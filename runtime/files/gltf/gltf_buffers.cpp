@@ -1,6 +1,7 @@
 #include "runtime/files/gltf/gltf_buffers.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "runtime/files/bad_file.h"

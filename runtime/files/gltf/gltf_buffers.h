@@ -2,7 +2,7 @@
 /// The bytes behind a glTF document's buffers and bufferViews, all ranges checked against bytes that exist.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "runtime/files/gltf/gltf_draco.h"
 
 #include <draco/compression/decode.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

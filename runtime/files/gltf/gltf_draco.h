@@ -2,7 +2,7 @@
 /// KHR_draco_mesh_compression through libdraco.
 
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "runtime/files/gltf/gltf_meshopt.h"
 
 #include <meshoptimizer.h>
+#include <nlohmann/json.hpp>
 
 #include "runtime/files/bad_file.h"
 

@@ -2,7 +2,7 @@
 /// EXT_meshopt_compression (Khronos registry, extensions/2.0/Vendor/EXT_meshopt_compression): modes ATTRIBUTES,
 /// TRIANGLES and INDICES, filters NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "runtime/files/bytes.h"

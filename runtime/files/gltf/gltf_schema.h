@@ -2,7 +2,7 @@
 /// The shape of a glTF document: every member that this loader depends on has the right type, and every reference names
 /// something that exists. One table, so that what comes after may index without asking.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace blush::load {
 

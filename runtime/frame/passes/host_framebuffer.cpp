@@ -101,11 +101,11 @@ void compose(FrameState& frame, const FrameGraph& graph, ResourceId from, Resour
     glDisable(GL_BLEND);
 }
 
-void read_depth(FrameState& frame, const FrameGraph& graph) {
+void read_depth(FrameState& frame, const FrameGraph& graph, ResourceId to) {
     const ViewFrame& view = *frame.view;
     HostDepthCopy& copy = frame.own<HostDepthCopy>();
     const GLuint framebuffer = frame.common->depth_only.name();
-    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, graph[frame.resources.scene_depth].handle, 0);
+    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, graph[to].handle, 0);
     const float far_depth = 1;
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_depth);
     if (!copy_host_depth(view, copy)) return;
@@ -140,6 +140,15 @@ void write_depth(FrameState& frame, const FrameGraph& graph, ResourceId target) 
     glDisable(GL_DEPTH_TEST);
 }
 
+void write_velocities(FrameState& frame, const FrameGraph& graph, ResourceId target) {
+    bind_rectangle(frame, graph, target);
+    glUseProgram(frame.common->write_velocities.name());
+    glBindTextureUnit(0, graph[frame.resources.velocities].handle);
+    glBindSampler(0, 0);
+    set_corner(*frame.view);
+    draw_screen(frame);
+}
+
 }  // namespace
 
 bool make_common_passes(FrameState& frame) {
@@ -155,6 +164,7 @@ bool make_common_passes(FrameState& frame) {
     constexpr std::array<std::string_view, 1> multisampled = {"MULTISAMPLED"};
     return gl::require_program(common.tone, {"screen.vert", "camera/tone.frag"}) &&
            gl::require_program(common.compose, {"screen.vert", "frame/compose.frag"}) &&
+           gl::require_program(common.write_velocities, {"screen.vert", "frame/write_velocities.frag"}) &&
            gl::require_program(common.move_depth, {"screen.vert", "frame/move_depth.frag"}) &&
            gl::require_program(common.move_multisampled_depth, {"screen.vert", "frame/move_depth.frag", multisampled});
 }
@@ -164,9 +174,18 @@ void declare_compose(FrameState& frame, ResourceId from, ResourceId target) {
     frame.graph.pass("compose", pass).reads(from).modifies(target);
 }
 
-void declare_read_depth(FrameState& frame) {
-    frame.graph.pass("read host depth", [&frame](const FrameGraph& graph) { read_depth(frame, graph); })
-        .writes(frame.resources.scene_depth);
+void declare_read_depth(FrameState& frame, ResourceId to) {
+    frame.graph.pass("read host depth", [&frame, to](const FrameGraph& graph) { read_depth(frame, graph, to); })
+        .writes(to);
+}
+
+void declare_write_velocities(FrameState& frame) {
+    const ViewFrame& view = *frame.view;
+    const ResourceId target = frame.graph.import_framebuffer("host velocities", view.velocity_framebuffer,
+                                                             {PixelFormat::rg16f, view.width, view.height, 1});
+    const auto pass = [&frame, target](const FrameGraph& graph) { write_velocities(frame, graph, target); };
+    frame.graph.pass("write velocities", pass).reads(frame.resources.velocities).modifies(target);
+    frame.graph.present(target);
 }
 
 void declare_write_depth(FrameState& frame, ResourceId target) {

@@ -13,16 +13,16 @@ void declare_tone(FrameState& frame, ResourceId to) {
         glUseProgram(frame.common->tone.name());
         glBindTextureUnit(BLUSH_SCENE_COLOR_UNIT, graph[from].handle);
         glBindSampler(BLUSH_SCENE_COLOR_UNIT, 0);
-        const bool metered = frame.on(exposure_effect);
-        if (metered) glBindTextureUnit(1, graph[frame.resources.log2_exposure].handle);
-        // Without metering, the stops that the exposure is set to; with it they are in what was metered.
-        const double stops = metered ? 0 : frame.settings.number(exposure_effect.name, "stops");
+        const bool metered = frame.resources.log2_exposure.has_value();
+        if (metered) glBindTextureUnit(1, graph[*frame.resources.log2_exposure].handle);
+        // With metering they are in what was metered.
+        const double stops = metered ? 0 : frame.exposure_stops;
         glUniform1f(0, frame.view->exposure * static_cast<float>(std::exp2(stops)));
         glUniform1i(1, metered ? 1 : 0);
         draw_screen(frame);
     };
     frame.graph.pass("tone", tone).reads(frame.resources.scene_color).writes(to);
-    if (frame.on(exposure_effect)) frame.graph.reads(frame.resources.log2_exposure);
+    if (frame.resources.log2_exposure) frame.graph.reads(*frame.resources.log2_exposure);
 }
 
 void declare_copy(FrameState& frame, ResourceId from, ResourceId to) {

@@ -178,7 +178,7 @@ TEST_F(CameraEffects, WhatIsNoNumberIsNotMetered) {
     test::draw(character, display, view_of(display));
     const FrameState& state = character.frame();
     float found = 0;
-    glGetTextureImage(state.graph[state.resources.log2_exposure].handle, 0, GL_RED, GL_FLOAT, sizeof(found), &found);
+    glGetTextureImage(state.graph[*state.resources.log2_exposure].handle, 0, GL_RED, GL_FLOAT, sizeof(found), &found);
     EXPECT_NEAR(static_cast<double>(found),
                 log2_exposure(log2_average_luminance(radiance, Metering::frame), 0.18, 0, 6), 1e-4);
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/draw/shading.h"
 #include "runtime/gl/program.h"
 #include "tests/gl_fixture.h"
 
@@ -27,10 +28,10 @@ std::string complaint_of(const std::string& text) {
     return log.data();
 }
 
-std::string lit_by_a_compute_shader(std::vector<std::string_view> defines) {
-    defines.insert(defines.end(), {"BASE_COLOR_MAP", "METALLIC_ROUGHNESS_MAP", "NORMAL_MAP", "OCCLUSION_MAP",
-                                   "EMISSIVE_MAP", "SPECULAR_MAP", "SHADOWS", "ENVIRONMENT", "AMBIENT_OCCLUSION"});
-    const Result<std::string> text = gl::expand_shader("draw/shading.glsl", defines);
+std::string lit_by_a_compute_shader(DeviceState& device, const Permutation& permutation) {
+    const ShadingSource source = shading_source(device, permutation);
+    const std::vector<std::string_view> defines(source.defines.begin(), source.defines.end());
+    const Result<std::string> text = gl::expand_shader("draw/shading.glsl", defines, &source.insertions);
     EXPECT_TRUE(text) << text.error().message;
     return *text + R"(
 layout(local_size_x = 1) in;
@@ -44,18 +45,37 @@ void main() {
 })";
 }
 
+/// All that may take part in shading a kind of material, in every variant.
+std::vector<Permutation> permutations_of(DeviceState& device, MaterialKind kind) {
+    const ShadingLayout& layout = shading_layout(device);
+    Permutation all;
+    all.model = kind;
+    all.textures = 0x3F;
+    std::uint32_t variants = 0;
+    for (std::size_t k = 0; k < layout.parts.size(); ++k) {
+        const ShadingPart& part = *layout.parts[k].effect->shading;
+        if ((part.materials & materials_of(kind)) == 0) continue;
+        all.shading.parts |= 1U << k;
+        variants += static_cast<std::uint32_t>(part.variants.size());
+    }
+    std::vector<Permutation> result = {all};
+    for (std::uint32_t v = 0; v < variants; ++v) {
+        result.push_back(all);
+        result.back().shading.variants = 1U << v;
+    }
+    return result;
+}
+
 using SurfaceModels = test::GlTest;
 
 TEST_F(SurfaceModels, KnowNothingOfPixels) {
-    const std::vector<std::vector<std::string_view>> models = {
-        {},
-        {"EYE"},
-        {"MOUTH"},
-        {"HAIR"},
-        {"SKIN"},
-        {"SKIN", "WRINKLES", "BLOOD", "SKIN_REFLECTION", "TRANSLUCENCY"},
-        {"SKIN", "WRINKLES", "WRINKLE_DIFFERENCES", "BLOOD", "PIGMENT_COLOR"}};
-    for (const auto& model : models) EXPECT_EQ(complaint_of(lit_by_a_compute_shader(model)), "");
+    DeviceState& state = device_.state();
+    for (const MaterialKind kind :
+         {MaterialKind::skin, MaterialKind::eye, MaterialKind::mouth, MaterialKind::hair, MaterialKind::other}) {
+        for (const Permutation& permutation : permutations_of(state, kind)) {
+            EXPECT_EQ(complaint_of(lit_by_a_compute_shader(state, permutation)), "") << static_cast<int>(kind);
+        }
+    }
 }
 
 }  // namespace

@@ -4,8 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <set>
+#include <string>
 
+#include "runtime/effects/shared_settings.h"
 #include "runtime/gl/program.h"
 #include "shaders/embedded.h"
 #include "tests/gl_fixture.h"
@@ -15,7 +20,7 @@ namespace {
 
 bool is_sentence_like(std::string_view text) { return text.size() >= 10 && text.find(' ') != std::string_view::npos; }
 
-TEST(Effects, HaveTheirFiveFacesAndNamesOfTheirOwn) {
+TEST(Effects, HaveAllTheirFacesAndNamesOfTheirOwn) {
     std::set<std::string_view> names;
     ASSERT_FALSE(effects().empty());
     for (const Effect* effect : effects()) {
@@ -23,12 +28,8 @@ TEST(Effects, HaveTheirFiveFacesAndNamesOfTheirOwn) {
         SCOPED_TRACE(effect->name);
         EXPECT_TRUE(names.insert(effect->name).second) << "the name is taken";
         EXPECT_TRUE(is_sentence_like(effect->what));
-        // Asked once for the view or for each character; or never, of what works before any frame.
-        EXPECT_FALSE(effect->need != nullptr && effect->character_need != nullptr);
-        const bool asked = effect->need != nullptr || effect->character_need != nullptr;
-        EXPECT_EQ(asked, !effect->name.ends_with("_baking"));
-        EXPECT_TRUE(asked || effect->declare == nullptr);
-        EXPECT_NE(effect->studies, nullptr);
+        // Asked once for the view or for each character.
+        EXPECT_NE(effect->need != nullptr, effect->character_need != nullptr);
         ASSERT_FALSE(effect->hard_cases.empty());
         std::set<std::string_view> cases;
         for (const HardCase& hard : effect->hard_cases) {
@@ -54,6 +55,127 @@ TEST(Effects, HaveTheirFiveFacesAndNamesOfTheirOwn) {
                 EXPECT_NE(setting.meaning.find(choice), std::string_view::npos) << choice << " is not explained";
             }
         }
+    }
+}
+
+/// The text of a file in shaders/ or of the part's own.
+std::string_view shader_text(const ShadingPart& part, std::string_view file) {
+    for (const std::span<const EmbeddedShader> shaders : {embedded_shaders(), part.own_files}) {
+        for (const EmbeddedShader& shader : shaders) {
+            if (shader.name == file) return shader.text;
+        }
+    }
+    return {};
+}
+
+TEST(Effects, PartsOfShadingHaveTheFunctionsOfTheirHooks) {
+    std::string called;
+    for (const EmbeddedShader& shader : embedded_shaders()) called += shader.text;
+    for (const Effect* effect : effects()) {
+        if (effect->shading == nullptr) continue;
+        SCOPED_TRACE(effect->name);
+        const ShadingPart& part = *effect->shading;
+        std::string text;
+        for (const std::string_view file : {part.file, part.vertex_file, part.output_file}) {
+            if (file.empty()) continue;
+            EXPECT_FALSE(shader_text(part, file).empty()) << file;
+            text += shader_text(part, file);
+        }
+        for (const std::string_view hook : part.hooks) {
+            EXPECT_NE(called.find("#call " + std::string(hook) + "("), std::string::npos) << hook << " is no hook";
+            EXPECT_NE(text.find("void " + std::string(effect->name) + "_" + std::string(hook) + "("), std::string::npos)
+                << hook << " has no function";
+        }
+        EXPECT_TRUE(part.hooks.empty() == (part.gives_model != nullptr)) << "it has nothing to say";
+        EXPECT_EQ(part.variants.empty(), part.variant == nullptr);
+        EXPECT_EQ(part.textures != 0, text.find("_UNIT") != std::string::npos);
+        // Every shader of a frame writes all of its targets.
+        const bool everywhere =
+            effect->need != nullptr && part.takes_part == nullptr && part.materials == all_materials;
+        EXPECT_TRUE(part.targets.empty() || everywhere);
+    }
+}
+
+TEST(Effects, UniformsOfShadingAgreeWithGlsl) {
+    std::size_t bytes = 0;
+    for (const Effect* effect : effects()) {
+        if (effect->shading == nullptr || effect->shading->uniforms.bytes == 0) continue;
+        SCOPED_TRACE(effect->name);
+        const ShadingUniforms& uniforms = effect->shading->uniforms;
+        EXPECT_EQ(uniforms.bytes % 16, 0U);
+        EXPECT_NE(uniforms.write, nullptr);
+        const std::string_view text = shader_text(*effect->shading, uniforms.file);
+        EXPECT_NE(text.find("struct " + std::string(uniforms.type) + " {"), std::string_view::npos);
+        ASSERT_FALSE(uniforms.fields.empty());
+        for (const UniformField& field : uniforms.fields) EXPECT_LT(field.offset, uniforms.bytes) << field.name;
+        bytes += uniforms.bytes;
+    }
+    EXPECT_LE(bytes, 16384U) << "more than a uniform block holds everywhere";
+}
+
+/// Whether a file names an effect: by its object, in quotes, or a file of its room.
+std::optional<std::string> effect_named_in(const std::string& text) {
+    for (const Effect* effect : effects()) {
+        const std::string name(effect->name);
+        for (const std::string& way : {name + "_effect", "\"" + name + "\"", "\"" + name + "."}) {
+            if (text.find(way) != std::string::npos) return way;
+        }
+    }
+    return std::nullopt;
+}
+
+TEST(Effects, AreNamedInTheirRoomsAlone) {
+    namespace fs = std::filesystem;
+    EXPECT_TRUE(effect_named_in("x.on(blood_effect)"));
+    EXPECT_TRUE(effect_named_in("set(\"blood.shown\")"));
+    const fs::path root(BLUSH_SOURCE_DIR);
+    std::size_t files = 0;
+    for (const char* room : {"runtime/frame", "runtime/draw", "runtime/gl", "runtime/deform", "shaders/draw",
+                             "shaders/frame", "runtime"}) {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / room)) {
+            if (!entry.is_regular_file()) continue;
+            if (std::string_view(room) == "runtime" && entry.path().parent_path() != root / room) continue;
+            std::ifstream in(entry.path());
+            std::string text;
+            for (std::string line; std::getline(in, line);) text += line.substr(0, line.find("//")) + "\n";
+            const std::optional<std::string> named = effect_named_in(text);
+            EXPECT_FALSE(named) << entry.path() << " names " << *named;
+            ++files;
+        }
+    }
+    EXPECT_GT(files, 60U);
+}
+
+TEST(EffectSettings, AreTheSameByNameAndByPlace) {
+    for (const Effect* effect : effects()) {
+        for (std::uint16_t s = 0; s < effect->settings.size(); ++s) {
+            const Setting& setting = effect->settings[s];
+            const std::string name = std::string(effect->name) + "." + std::string(setting.name);
+            EffectSettings settings;
+            const std::string value =
+                setting.choices.empty() ? std::to_string(setting.highest) : std::string(setting.choices.back());
+            ASSERT_TRUE(settings.set(name, value)) << name;
+            const SettingId id{effect, s};
+            EXPECT_EQ(settings.number(id), settings.number(effect->name, setting.name)) << name;
+            EXPECT_EQ(EffectSettings().number(id), EffectSettings().number(effect->name, setting.name)) << name;
+        }
+    }
+}
+
+TEST(EffectSettings, ThatOthersReadAreThoseOfTheirNames) {
+    for (const auto& [id, effect, setting] : {std::tuple(antialiasing_mode, "antialiasing", "mode"),
+                                              {supersampling_factor, "supersampling", "factor"},
+                                              {velocities_source, "velocities", "source"},
+                                              {shadows_method, "shadows", "method"},
+                                              {shadows_size, "shadows", "size"},
+                                              {shadows_edges, "shadows", "edges"},
+                                              {wrinkles_encoding, "wrinkles", "encoding"},
+                                              {wrinkles_storage, "wrinkles", "storage"},
+                                              {blood_colour, "blood", "colour"},
+                                              {blood_table_nodes, "blood", "table_nodes"}}) {
+        ASSERT_NE(id.effect, nullptr);
+        EXPECT_EQ(id.effect->name, effect);
+        EXPECT_EQ(id.effect->settings[id.place].name, setting);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -13,7 +14,7 @@
 namespace blush {
 namespace {
 
-constexpr GLuint units = 8, block_bindings = 8, draw_buffers = 8, viewports = 16;
+constexpr GLuint units = 24, block_bindings = 8, draw_buffers = 8, viewports = 16;
 
 // Every capability of GL 4.5 core that is not indexed.
 constexpr GLenum switches[] = {
@@ -171,8 +172,8 @@ Snapshot take_snapshot() {
     glGetIntegerv(GL_ACTIVE_TEXTURE, &active_unit);
     for (GLuint unit = 0; unit < units; ++unit) {
         glActiveTexture(GL_TEXTURE0 + unit);
-        for (const int name : {GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_2D_MULTISAMPLE, GL_TEXTURE_BINDING_CUBE_MAP,
-                               GL_TEXTURE_BINDING_3D, GL_SAMPLER_BINDING}) {
+        for (const int name : {GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_ARRAY,
+                               GL_TEXTURE_BINDING_CUBE_MAP, GL_TEXTURE_BINDING_3D, GL_SAMPLER_BINDING}) {
             GLint bound = 0;
             glGetIntegerv(static_cast<GLenum>(name), &bound);
             state["unit " + std::to_string(unit) + " " + std::to_string(name)] = {static_cast<double>(bound)};
@@ -186,7 +187,8 @@ Snapshot take_snapshot() {
 struct WildHost {
     gl::Buffer block = gl::make_buffer(4096, nullptr), other = gl::make_buffer(4096, nullptr);
     gl::Texture plain = gl::make_texture(GL_TEXTURE_2D), cube = gl::make_texture(GL_TEXTURE_CUBE_MAP),
-                target = gl::make_texture(GL_TEXTURE_2D);
+                target = gl::make_texture(GL_TEXTURE_2D), layers = gl::make_texture(GL_TEXTURE_2D_ARRAY),
+                multisampled = gl::make_texture(GL_TEXTURE_2D_MULTISAMPLE);
     gl::Sampler sampler = gl::make_sampler();
     gl::VertexArray vertex_array = gl::make_vertex_array();
     gl::Framebuffer draw_framebuffer = gl::make_framebuffer(), read_framebuffer = gl::make_framebuffer();
@@ -198,6 +200,8 @@ struct WildHost {
         program = glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &text);
         glTextureStorage2D(plain.name(), 1, GL_RGBA8, 4, 4);
         glTextureStorage2D(cube.name(), 1, GL_RGBA8, 4, 4);
+        glTextureStorage3D(layers.name(), 1, GL_RGBA8, 4, 4, 2);
+        glTextureStorage2DMultisample(multisampled.name(), 4, GL_RGBA8, 4, 4, GL_TRUE);
         glTextureStorage2D(target.name(), 1, GL_RGBA8, 4, 4);
         glNamedFramebufferTexture(draw_framebuffer.name(), GL_COLOR_ATTACHMENT0, target.name(), 0);
         glTransformFeedbackBufferBase(feedback.name(), 1, other.name());
@@ -273,6 +277,8 @@ struct WildHost {
             glActiveTexture(GL_TEXTURE0 + unit);
             glBindTexture(GL_TEXTURE_2D, plain.name());
             glBindTexture(GL_TEXTURE_CUBE_MAP, cube.name());
+            glBindTexture(GL_TEXTURE_2D_ARRAY, layers.name());
+            glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, multisampled.name());
             glBindSampler(unit, sampler.name());
         }
         glActiveTexture(GL_TEXTURE0 + 13);
@@ -355,6 +361,23 @@ TEST_F(HostState, DrawingRestoresEverythingAndIsNotDisturbed) {
         expect_same(before, take_snapshot(), "Character::read_deformed");
         const Offscreen another = make_offscreen(8, 8);
         expect_same(before, take_snapshot(), "Offscreen::create");
+    }
+}
+
+TEST_F(HostState, MapsOfWrinklesAndBloodRestoreEverything) {
+    const FaceAsset asset = *FaceAsset::load(std::filesystem::path(BLUSH_BINARY_DIR) / "assets/face.glb");
+    Portrait character = *Portrait::create(device_, asset);
+    character.set(*character.control("anger"), 1);
+    const Offscreen offscreen = make_offscreen(24, 24);
+    const ViewFrame view = test::framed_view(character, offscreen);
+    const WildHost host;
+    const Snapshot before = take_snapshot();
+    const FrameReport& report = character.draw(view);
+    expect_same(before, take_snapshot(), "Scene::draw");
+    for (const char* effect : {"wrinkles", "blood"}) {
+        EXPECT_TRUE(std::ranges::any_of(report.effects, [effect](const EffectReport& each) {
+            return each.effect == effect && each.on;
+        })) << effect;
     }
 }
 

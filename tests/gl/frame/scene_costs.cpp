@@ -9,10 +9,12 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <set>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/frame/device_state.h"
+#include "runtime/frame/effect.h"
 #include "runtime/frame/frame_state.h"
 #include "tests/gl_fixture.h"
 #include "tests/rig/count_allocations.h"
@@ -57,6 +59,92 @@ TEST_F(SceneCosts, ASteadyFrameAllocatesNothing) {
             for (int steady = 4; steady < 8; ++steady) draw(steady);
             EXPECT_EQ(test::allocation_count() - before, 0U) << count << " characters, " << mode;
         }
+    }
+}
+
+/// A light with a shadow map of the host's, a probe and an environment.
+Lighting all_kinds_of_light(GLuint shadow_map) {
+    Image sky;
+    sky.width = 8;
+    sky.height = 4;
+    sky.channels = 3;
+    sky.floats.assign(std::size_t{8} * 4 * 3, 0.4F);
+    Lighting lighting;
+    lighting.environment = *make_environment(sky);
+    LightSource light;
+    light.direction_world = {-0.5F, -0.3F, -1};
+    light.host_shadow.depth_texture = shadow_map;
+    lighting.lights = {light};
+    LightProbe probe;
+    probe.reach = 1e3;
+    lighting.probes = {probe};
+    return lighting;
+}
+
+/// Some of its vertices on a body that has them where they are at rest. (The default face's bust is closed: it has no
+/// border.)
+void pin_some(Character& character) {
+    const std::vector<std::uint32_t> border = {0, 1, 2};
+    std::vector<Vec3> positions, normals;
+    for (const std::uint32_t v : border) {
+        positions.push_back(character.face().positions[v]);
+        normals.push_back(character.face().normals[v]);
+    }
+    ASSERT_TRUE(character.pin(border, 20));
+    ASSERT_TRUE(character.move_pins(positions, normals));
+}
+
+TEST_F(SceneCosts, NoEffectAllocatesInASteadyFrame) {
+    const FaceAsset asset = *FaceAsset::load(std::filesystem::path(BLUSH_BINARY_DIR) / "assets/face.glb");
+    const gl::Texture map = gl::make_texture(GL_TEXTURE_2D);
+    glTextureStorage2D(map.name(), 1, GL_DEPTH_COMPONENT32F, 16, 16);
+    std::set<std::string_view> on;
+    for (const auto& [mode, count] : {std::pair("msaa4", 1), {"supersampled", 1}, {"smaa_4x", 5}}) {
+        Scene scene = *Scene::create(device_);
+        View view = *View::create(device_);
+        scene.set_lighting(all_kinds_of_light(map.name()));
+        ASSERT_TRUE(scene.set("shadows.size", "512"));
+        for (const auto& [setting, value] : {std::pair("antialiasing.mode", mode),
+                                             {"supersampling.factor", "2"},
+                                             {"bloom.strength", "0.1"},
+                                             {"depth_of_field.f_number", "2"},
+                                             {"grain.strength", "0.02"},
+                                             {"exposure.mode", "automatic"}}) {
+            ASSERT_TRUE(view.set(setting, value));
+        }
+        std::vector<Character> characters;
+        for (int c = 0; c < count; ++c) {
+            characters.push_back(*Character::create(device_, asset));
+            ASSERT_TRUE(characters.back().set("normals.source", c == 0 ? "recomputed" : "authored"));
+            pin_some(characters.back());
+            ASSERT_TRUE(scene.add(characters.back()));
+        }
+        const Offscreen offscreen = make_offscreen(32, 32);
+        ViewFrame frame = offscreen.view();
+        frame.camera = asset.framing(1).camera(1);
+        const auto draw = [&](int number) {
+            frame.time_seconds = 0.04 * number;
+            for (Character& character : characters) {
+                for (float& control : character.controls()) control = 0.3F + 0.02F * static_cast<float>(number);
+            }
+            const FrameReport& report = scene.draw(view, frame);
+            EXPECT_FALSE(report.failure);
+            return &report;
+        };
+        for (int warm = 0; warm < 4; ++warm) draw(warm);
+        const std::size_t before = test::allocation_count();
+        const FrameReport* report = nullptr;
+        for (int steady = 4; steady < 6; ++steady) report = draw(steady);
+        EXPECT_EQ(test::allocation_count() - before, 0U) << count << " characters, " << mode;
+        for (const EffectReport& effect : report->effects) {
+            if (effect.on) on.insert(effect.effect);
+        }
+    }
+    for (const Effect* effect : effects()) {
+        // The face has no joints; test::add_two_joints() is what tests of them have.
+        if (effect->need == nullptr && effect->character_need == nullptr) continue;
+        if (effect->name == "skinning") continue;
+        EXPECT_TRUE(on.contains(effect->name)) << effect->name;
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -219,6 +220,44 @@ TEST_F(Scenes, FurtherCharactersShareModelProgramsAndPasses) {
     }
 }
 
+TEST_F(Scenes, PassesAndProgramsOfWholeHeadsDoNotGrowWithTheirNumber) {
+    const FaceAsset asset = *FaceAsset::load(std::filesystem::path(BLUSH_BINARY_DIR) / "assets/face.glb");
+    OrbitCamera orbit = asset.framing(1);
+    orbit.distance *= 4;
+    orbit.scene_radius *= 4;
+    const Offscreen offscreen = make_offscreen(32, 32);
+    ViewFrame frame = offscreen.view();
+    frame.camera = orbit.camera(1);
+    for (const char* mode : {"view", "smaa_t2x"}) {
+        std::size_t passes = 0;
+        std::uint32_t switches = 0;
+        for (const int count : {1, 3}) {
+            std::vector<Character> characters;
+            Scene scene = make_scene();
+            View view = make_view();
+            ASSERT_TRUE(view.set("antialiasing.mode", mode));
+            ASSERT_TRUE(scene.set("shadows.size", "512"));
+            for (int c = 0; c < count; ++c) {
+                characters.push_back(character_of(asset));
+                characters.back().place(moved({0.2 * c - 0.2, 0, 0}));
+                ASSERT_TRUE(scene.add(characters.back()));
+            }
+            for (const float value : {0.2F, 0.6F}) {  // the second frame has velocities
+                for (Character& character : characters) std::ranges::fill(character.controls(), value);
+                scene.draw(view, frame);
+            }
+            const FrameReport& report = Scene::report(view);
+            if (count == 1) {
+                passes = report.passes.size();
+                switches = report.program_switches;
+            }
+            EXPECT_EQ(report.passes.size(), passes) << mode;
+            // What blends is drawn from far to near, whatever its program.
+            EXPECT_LE(report.program_switches, switches + 2 * static_cast<std::uint32_t>(count - 1)) << mode;
+        }
+    }
+}
+
 TEST_F(Scenes, SeveralViewsShareOneDeformationAndOneShadowPass) {
     const FaceAsset asset = asset_of(face());
     Character character = character_of(asset);
@@ -295,58 +334,87 @@ TEST_F(Scenes, APictureIsLaidOverTheHostsInItsRectangleAndSparesItsOtherAttachme
     }
 }
 
+/// A way in which a host has its depth.
+struct HostsDepth {
+    GLenum format;
+    GLsizei samples = 1;
+    DepthConvention convention;
+    bool infinite = false;  ///< the far plane
+};
+
+std::vector<HostsDepth> ways_of_depth() {
+    std::vector<HostsDepth> ways;
+    for (const GLenum format : std::array<GLenum, 5>{GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH24_STENCIL8,
+                                                     GL_DEPTH_COMPONENT32F, GL_DEPTH32F_STENCIL8}) {
+        for (const bool zero_to_one : {false, true}) {
+            for (const bool reversed : {false, true}) ways.push_back({format, 1, {zero_to_one, reversed}});
+        }
+        ways.push_back({format, 4, {true, true}});
+        ways.push_back({format, 1, {true, true}, true});
+    }
+    return ways;
+}
+
+/// What GL's own projection becomes in the host's convention.
+glm::mat4 projection_for(glm::mat4 clip, const HostsDepth& way) {
+    if (way.infinite) {
+        const float near = clip[3][2] / (clip[2][2] - 1);
+        clip[2][2] = -1;
+        clip[3][2] = -2 * near;
+    }
+    for (glm::length_t c = 0; c < 4; ++c) {
+        if (way.convention.reversed) clip[c][2] = -clip[c][2];
+        if (way.convention.zero_to_one) clip[c][2] = 0.5F * (clip[c][2] + clip[c][3]);
+    }
+    return clip;
+}
+
 TEST_F(Scenes, TheHostsDepthHidesTheFaceAndTheFacesDepthHidesTheHostsLaterGeometry) {
     const FaceAsset asset = asset_of(face());
     Character character = character_of(asset);
     Scene scene = make_scene();
     ASSERT_TRUE(scene.add(character));
     View view = make_view();
-    constexpr std::array<GLenum, 4> formats = {GL_DEPTH_COMPONENT24, GL_DEPTH24_STENCIL8, GL_DEPTH_COMPONENT32F,
-                                               GL_DEPTH32F_STENCIL8};
-    for (const GLenum format : formats) {
-        for (const bool zero_to_one : {false, true}) {
-            for (const bool reversed : {false, true}) {
-                const HostFramebuffer host(format);
-                const float far_depth = reversed ? 0.0F : 1.0F, near_depth = 1 - far_depth;
-                host.clear({0, 1, 0, 1}, {}, far_depth);
-                host.wall(near_depth);
-                ViewFrame frame = frame_of(asset);
-                frame.framebuffer = host.name();
-                frame.backdrop = Backdrop::keep;
-                frame.host_depth = HostDepth::read_and_write;
-                frame.depth_convention = {zero_to_one, reversed};
-                // What GL's own projection becomes in the host's convention.
-                glm::mat4& clip = frame.camera.clip_from_view;
-                for (glm::length_t c = 0; c < 4; ++c) {
-                    if (reversed) clip[c][2] = -clip[c][2];
-                    if (zero_to_one) clip[c][2] = 0.5F * (clip[c][2] + clip[c][3]);
+    for (const HostsDepth& way : ways_of_depth()) {
+        SCOPED_TRACE(testing::Message() << way.format << ", " << way.samples << " samples, "
+                                        << way.convention.zero_to_one << way.convention.reversed << way.infinite);
+        const HostFramebuffer host(way.format, way.samples);
+        const bool reversed = way.convention.reversed;
+        const float far_depth = reversed ? 0.0F : 1.0F, near_depth = 1 - far_depth;
+        host.clear({0, 1, 0, 1}, {}, far_depth);
+        host.wall(near_depth);
+        ViewFrame frame = frame_of(asset);
+        frame.framebuffer = host.name();
+        frame.backdrop = Backdrop::keep;
+        frame.host_depth = HostDepth::read_and_write;
+        frame.depth_convention = way.convention;
+        frame.camera.clip_from_view = projection_for(frame.camera.clip_from_view, way);
+        const FrameReport& report = scene.draw(view, frame);
+        ASSERT_FALSE(report.failure) << *report.failure;
+        const std::vector<std::uint8_t> picture = host.read(GL_COLOR_ATTACHMENT0);
+        const std::vector<float> depth = host.depth();
+        std::size_t faces = 0, written = 0;
+        for (std::uint32_t y = 0; y < side; ++y) {
+            for (std::uint32_t x = 0; x < side; ++x) {
+                const std::size_t p = std::size_t{y} * side + x;
+                const bool green = picture[4 * p] == 0 && picture[4 * p + 1] == 255;
+                if (x < side / 2) {
+                    ASSERT_TRUE(green) << "the wall hides the face at " << x << ", " << y;
                 }
-                const FrameReport& report = scene.draw(view, frame);
-                ASSERT_FALSE(report.failure) << *report.failure;
-                const std::vector<std::uint8_t> picture = host.read(GL_COLOR_ATTACHMENT0);
-                const std::vector<float> depth = host.depth();
-                std::size_t faces = 0, written = 0;
-                for (std::uint32_t y = 0; y < side; ++y) {
-                    for (std::uint32_t x = 0; x < side; ++x) {
-                        const std::size_t p = std::size_t{y} * side + x;
-                        const bool green = picture[4 * p] == 0 && picture[4 * p + 1] == 255;
-                        if (x < side / 2) {
-                            ASSERT_TRUE(green) << "the wall hides the face at " << x << ", " << y;
-                            ASSERT_EQ(depth[p], near_depth);
-                            continue;
-                        }
-                        faces += green ? 0U : 1U;
-                        written += depth[p] != far_depth ? 1U : 0U;
-                        if (!green) {
-                            const bool in_front = reversed ? depth[p] > far_depth : depth[p] < far_depth;
-                            ASSERT_TRUE(in_front) << x << ", " << y;
-                        }
-                    }
+                if (x >= side / 2) faces += green ? 0U : 1U;
+                if (way.samples > 1) continue;  // its depth cannot be read back
+                if (x < side / 2) {
+                    ASSERT_EQ(depth[p], near_depth);
+                    continue;
                 }
-                EXPECT_GT(faces, 300U);
-                EXPECT_GE(faces, written);
+                written += depth[p] != far_depth ? 1U : 0U;
+                if (!green) {
+                    ASSERT_TRUE(reversed ? depth[p] > far_depth : depth[p] < far_depth) << x << ", " << y;
+                }
             }
         }
+        EXPECT_GT(faces, 300U);
+        EXPECT_GE(faces, written);
     }
 }
 

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "rig/light/diffusion_profile.h"
 #include "rig/light/skin_reflectance.h"
 #include "runtime/frame/frame_state.h"
+#include "runtime/light/scene_lights.h"
 #include "tests/gl_fixture.h"
 
 namespace blush {
@@ -94,6 +96,72 @@ Lighting from_direction(glm::vec3 towards, glm::vec3 radiance) {
 
 /// Half floats hold 0.05 %; the shadow map places its surfaces within some micrometres.
 constexpr double transmittance_tolerance = 2e-3;
+
+/// Radiance that white which faces the light reflects at a place: shaders/light/arriving.glsl.
+double arriving_radiance(const shared::Light& light, glm::dvec3 place) {
+    const glm::dvec3 to = glm::dvec3(light.position_world) - place;
+    const double reference2 = static_cast<double>(light.radiance_linear.w);
+    const glm::vec3 rgb(light.radiance_linear);
+    double radiance = static_cast<double>(std::max({rgb.x, rgb.y, rgb.z}));
+    radiance *= reference2 / std::max(glm::dot(to, to), 1e-6 * reference2);
+    if (light.cone_world.w <= -1.5F) return radiance;
+    const double low = static_cast<double>(light.cone_world.w);
+    const double high = std::max(static_cast<double>(light.shadow.y), low + 1e-4);
+    const double cosine = glm::dot(-glm::normalize(to), glm::dvec3(light.cone_world));
+    const double t = std::clamp((cosine - low) / (high - low), 0.0, 1.0);
+    return radiance * t * t * (3 - 2 * t);
+}
+
+TEST(LightsThatReach, NoSearchFindsMoreThanTheBoundOfWhatIsLeftOut) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> any(0, 1);
+    const auto direction = [&] { return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))); };
+    std::size_t left_out = 0;
+    std::vector<std::uint32_t> reaching;
+    double tightest = 1e9;
+    for (int round = 0; round < 20'000; ++round) {
+        LightSource light;
+        light.kind = any(random) < 0.5 ? LightKind::point : LightKind::spot;
+        const double distance = std::pow(10.0, 4 * any(random) - 1), radius = 1;
+        light.position_world = distance * direction();
+        light.reference_distance = static_cast<float>(std::pow(10.0, 3 * any(random) - 2));
+        light.outer_radians = static_cast<float>(std::pow(10.0, 4.5 * any(random) - 4.3));
+        light.inner_radians = static_cast<float>(any(random)) * light.outer_radians;
+        // Towards the sphere's rim, where a cone may or may not touch it.
+        const glm::dvec3 to = glm::normalize(-light.position_world + 2.0 * radius * any(random) * direction());
+        light.direction_world = glm::vec3(to);
+        light.radiance_linear = glm::vec3(static_cast<float>(std::pow(10.0, 12 * any(random) - 11)));
+        const LightsThatReach found = lights_that_reach(std::span(&light, 1), glm::dvec3(0), radius, reaching);
+        if (!reaching.empty()) continue;
+        ++left_out;
+        EXPECT_EQ(found.left_out, 1U);
+        EXPECT_LT(found.left_out_radiance, weakest_radiance);
+        const shared::Light shown = shader_light(light, glm::dvec3(0));
+        // The nearest place, the light itself where it is inside, and a climb from places of the cone.
+        const glm::dvec3 at(light.position_world);
+        glm::dvec3 best = distance > radius ? glm::normalize(at) * radius : at;
+        double most = arriving_radiance(shown, best);
+        double step = radius;
+        for (int climb = 0; climb < 60; ++climb) {
+            glm::dvec3 tried = best + step * direction();
+            if (climb < 10) tried = at + to * std::clamp(-glm::dot(at, to) + radius * normal(random), 1e-6, 1e6);
+            if (glm::length(tried) > radius) tried = glm::normalize(tried) * radius;
+            const double radiance = arriving_radiance(shown, tried);
+            if (radiance > most) {
+                most = radiance;
+                best = tried;
+            } else {
+                step *= 0.9;
+            }
+        }
+        // Positions and directions go to the shader in single precision.
+        ASSERT_LE(most, found.left_out_radiance * (1 + 1e-4) + 1e-12) << "round " << round;
+        if (most > 0) tightest = std::min(tightest, found.left_out_radiance / most);
+    }
+    EXPECT_GT(left_out, 3000U);
+    EXPECT_LT(tightest, 1.01) << "the bound is far from what there is";
+}
 
 TEST_F(Lights, ASlabAndAWedgeLetThroughWhatTheProfileSays) {
     const Offscreen offscreen = make_offscreen(side, side, Output::linear_hdr);

@@ -5,6 +5,7 @@
 #include "runtime/effects/scattering.h"
 #include "runtime/light/scatter_projection.h"
 #include "runtime/measure/portrait.h"
+#include "runtime/measure/studies.h"
 #include "runtime/offscreen.h"
 
 namespace blush {
@@ -128,8 +129,8 @@ void clear(const StudiedSkin& scene) { glClearTexImage(scene.scene.name(), 0, GL
 
 }  // namespace
 
-std::vector<Study> scattering_studies(const Device& device, const Face& face, double millimetres_a_unit,
-                                      bool /*quick*/) {
+std::vector<Study> studies::scattering(const Device& device, const Face& face, double millimetres_a_unit,
+                                       bool /*quick*/) {
     std::shared_ptr<StudiedSkin> scene = make_scene(device, face, millimetres_a_unit);
     if (!scene || scene->character.state().facts_of_face.skin.parts.empty()) return {};
     std::size_t skin = 0;

@@ -1,41 +1,17 @@
-/// The baker of pigment maps (`blush bake appearance`): work that was done before any frame, so that frames do not do
-/// it.
+/// The table of skin's colour, blood by scale and bias, and a texture out of its pigments.
 
 #include <algorithm>
-#include <array>
 
 #include "rig/blood/appearance.h"
 #include "rig/blood/colour_difference.h"
 #include "rig/blood/hemoglobin.h"
 #include "rig/blood/skin_colour_table.h"
-#include "runtime/effects/baker.h"
+#include "rig/blood/skin_inversion.h"
 #include "runtime/files/appearance_file.h"
+#include "runtime/measure/studies.h"
 
 namespace blush {
 namespace {
-
-constexpr std::array<Setting, 4> settings = {{
-    {.name = "size",
-     .meaning = "longest side of the maps, texels; larger textures are reduced",
-     .lowest = 1,
-     .highest = 16'384,
-     .default_number = 2048},
-    {.name = "change_size",
-     .meaning = "texels of a side of the maps of scale and offset of each expression",
-     .lowest = 4,
-     .highest = 4096,
-     .default_number = 256},
-    {.name = "radius",
-     .meaning = "radius of the disc of the local statistics (jimenez-2012, eq. 7.1), as a share of the maps' width",
-     .lowest = 0,
-     .highest = 100,
-     .default_number = 0.03125},
-    {.name = "lightness",
-     .meaning = "how much of lightness is pigment: 1 all (shadows become melanin), 0 none (all is light)",
-     .lowest = 0,
-     .highest = 1,
-     .default_number = 0.35},
-}};
 
 const SkinColourTable& exact_table() {
     // Differs from the model by CIEDE2000 0.002 at most; the model itself takes a millisecond for a hundred colours.
@@ -81,9 +57,8 @@ Study table_study() {
             }
             return error;
         };
-        study.variants.push_back(baker_variant("blood.table_nodes=" + std::to_string(nodes),
-                                               std::to_string(nodes * nodes) + " colours",
-                                               nodes == SkinColourTable::default_nodes, run, error_of));
+        study.variants.push_back({"blood.table_nodes=" + std::to_string(nodes), run, error_of,
+                                  std::to_string(nodes * nodes) + " colours", nodes == SkinColourTable::default_nodes});
     }
     return study;
 }
@@ -111,18 +86,16 @@ Study matching_study(const std::shared_ptr<const Blood>& blood) {
             const float weight = 1;
             return blended_hemoglobin(blood->rest, blood->skin, std::span(&weight, 1), std::span(&change, 1));
         };
-        study.variants.push_back(baker_variant(
-            coarser == 1 ? "at full resolution" : "at 1/" + std::to_string(coarser) + " of it",
-            std::to_string(side / coarser) + " texels a side", coarser == 4, [matched] { (void)matched(); },
-            [matched, blood] { return difference(matched(), blood->exact, blood->melanin); }));
+        study.variants.push_back({coarser == 1 ? "at full resolution" : "at 1/" + std::to_string(coarser) + " of it",
+                                  [matched] { (void)matched(); },
+                                  [matched, blood] { return difference(matched(), blood->exact, blood->melanin); },
+                                  std::to_string(side / coarser) + " texels a side", coarser == 4});
     }
-    study.variants.push_back(baker_variant(
-        "exact histogram matching", std::to_string(side) + " texels a side", false,
-        [blood] { (void)matched_locally(blood->rest, blood->expression, blood->radius); },
-        [] { return Variant::Error{}; }));
-    study.variants.push_back(baker_variant(
-        "no change at all", "nothing", false, [] {},
-        [blood] { return difference(blood->rest, blood->exact, blood->melanin); }));
+    study.variants.push_back({"exact histogram matching",
+                              [blood] { (void)matched_locally(blood->rest, blood->expression, blood->radius); },
+                              [] { return Variant::Error{}; }, std::to_string(side) + " texels a side"});
+    study.variants.push_back({"no change at all", [] {},
+                              [blood] { return difference(blood->rest, blood->exact, blood->melanin); }, "nothing"});
     return study;
 }
 
@@ -147,10 +120,9 @@ Study inversion_study(const std::shared_ptr<const ColourMap>& albedo) {
             return Variant::Error{static_cast<double>(found.median_difference),
                                   static_cast<double>(found.percentile_99_difference)};
         };
-        study.variants.push_back(baker_variant(
-            std::string("appearance_baking.lightness=") + name,
-            std::to_string(albedo->values.size()) + " texels inverted", lightness > 0 && lightness < 1,
-            [report] { (void)report(); }, error));
+        study.variants.push_back({std::string("appearance_baking.lightness=") + name, [report] { (void)report(); },
+                                  error, std::to_string(albedo->values.size()) + " texels inverted",
+                                  lightness > 0 && lightness < 1});
     }
     return study;
 }
@@ -168,7 +140,10 @@ std::shared_ptr<const ColourMap> albedo_of(const Face& face) {
     return map ? std::make_shared<const ColourMap>(resized(*map, 128, 128)) : nullptr;
 }
 
-std::vector<Study> studies(const Device& /*device*/, const Face& face, double /*millimetres_a_unit*/, bool quick) {
+}  // namespace
+
+std::vector<Study> studies::appearance_baking(const Device& /*device*/, const Face& face, double /*millimetres_a_unit*/,
+                                              bool quick) {
     std::vector<Study> result;
     result.push_back(table_study());
     const std::shared_ptr<const ColourMap> albedo = albedo_of(face);
@@ -189,23 +164,5 @@ std::vector<Study> studies(const Device& /*device*/, const Face& face, double /*
     result.push_back(inversion_study(albedo));
     return result;
 }
-
-constexpr std::array<HardCase, 1> hard_cases = {{
-    {"texture of one black texel", "keeps its colour, and finite",
-     [](Face& face) {
-         for (Image& image : face.images) image = {image.name, 1, 1, 4, {0, 0, 0, 255}, {}};
-     }},
-}};
-
-}  // namespace
-
-const Effect appearance_baking_effect = {
-    .name = "appearance_baking",
-    .what = "finds ahead of time what pigments colour the skin",
-    .settings = settings,
-    .stage = Stage::surface,
-    .studies = studies,
-    .hard_cases = hard_cases,
-};
 
 }  // namespace blush
