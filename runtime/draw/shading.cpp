@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cctype>
 #include <cstring>
 #include <string>
@@ -90,6 +91,7 @@ ShadingLayout::ShadingLayout() {
         block.bytes += uniforms.bytes;
         variant += static_cast<std::uint32_t>(effect->shading->variants.size());
     }
+    assert(parts.size() <= 32 && variant <= 32 && "Shading has a bit for each");
 }
 
 const ShadingLayout& shading_layout(DeviceState& device) { return device.store.get<ShadingLayout>(); }
