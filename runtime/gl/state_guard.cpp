@@ -3,10 +3,14 @@
 namespace blush::gl {
 namespace {
 
-constexpr std::array<GLenum, 5> pack_names = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
-                                              GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES};
-constexpr std::array<GLenum, 5> unpack_names = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
-                                                GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES};
+/// All that says how pixels lie in memory (GL 4.5, tables 8.1 and 18.1), the alignment first; layers of array textures
+/// have a height and a number to skip of their own.
+constexpr std::array<GLenum, 8> pack_names = {GL_PACK_ALIGNMENT,    GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
+                                              GL_PACK_SKIP_PIXELS,  GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST,
+                                              GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES};
+constexpr std::array<GLenum, 8> unpack_names = {GL_UNPACK_ALIGNMENT,    GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
+                                                GL_UNPACK_SKIP_PIXELS,  GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST,
+                                                GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES};
 constexpr std::array<GLenum, 6> blend_names = {GL_BLEND_SRC_RGB,   GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,
                                                GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
 

@@ -66,7 +66,7 @@ private:
     GLint uniform_buffer_ = 0, storage_buffer_ = 0, pack_buffer_ = 0, unpack_buffer_ = 0;
     std::array<Viewport, viewports> viewports_{};
     std::array<DrawBuffer, draw_buffers> draw_buffers_{};
-    std::array<GLint, 5> pack_{}, unpack_{};
+    std::array<GLint, 8> pack_{}, unpack_{};
     std::array<GLint, 2> clip_control_{}, polygon_mode_{};
     GLint depth_function_ = 0, cull_face_ = 0, front_face_ = 0, clamp_read_ = 0, provoking_vertex_ = 0;
     Stencil stencil_front_, stencil_back_;
