@@ -72,10 +72,11 @@ public:
     /// Several views of one frame: surfaces are deformed and shadow maps drawn once for all of them.
     void draw(std::span<const ViewInFrame> views);
     /// Compiles ahead what frames of this scene can come to need, so that none of them does: for its characters, its
-    /// lighting and the settings as they are, any pose, distance and camera. `like`: output, backdrop and the other
-    /// ways of the frames to come; its camera and framebuffer do not matter. One call compiles `most_programs` at most;
-    /// call it until it is done, between frames or before the first. Controls and poses stay; the next frame of a
-    /// temporal mode stands alone. Restores every GL state that it touches.
+    /// lighting and the settings as they are, any pose, distance and camera (a first probe or another number of host
+    /// shadow maps that come to reach a character may compile). `like`: output, backdrop and the other ways of the
+    /// frames to come; its camera and framebuffer do not matter. One call compiles `most_programs` at most; call it
+    /// until it is done, between frames or before the first. Controls and poses stay; the next frame of a temporal mode
+    /// stands alone. Restores every GL state that it touches.
     WarmUpProgress warm_up(View& view, const ViewFrame& like, std::uint32_t most_programs = 1);
 
     /// For a host that shades the characters with programs of its own: makes all that shading reads (surfaces, shadow

@@ -61,8 +61,9 @@ SkinOnScreen place_skin(const FrameState& frame, const CharacterState& character
         Bounds bounds = part.bounds;
         bounds.low -= reach;
         bounds.high += reach;
-        // Joints move a surface anywhere; then, and where a number is not finite, it may be seen, and be near.
-        const bool known = !character.facts.has_joints && std::isfinite(reach) && std::isfinite(largest_scale(view));
+        // Joints and pins move a surface anywhere; then, and where a number is not finite, it may be seen, and be near.
+        const bool known = !character.facts.has_joints && !character.facts.pinned && std::isfinite(reach) &&
+                           std::isfinite(largest_scale(view));
         if (known && outside_view(clip_corners(frame.clip_from_view * view, bounds))) continue;
         result.on_screen = true;
         double nearest = 0;

@@ -59,6 +59,10 @@ ResourceId shaded_image(FrameState& frame, std::string_view multisampled, std::s
     return to;
 }
 
+bool has_its_programs(const FrameState& frame) {
+    return !frame.shared.programs.failed() && !frame.shared.programs.postponed();
+}
+
 void run(FrameState& frame, const ViewFrame& view) {
     frame.graph.compile();
     frame.timers.clear();
@@ -234,15 +238,20 @@ void draw_view(FrameState& frame, SceneState& scene, const ViewFrame& view) {
         find_needs(frame);
         find_shading(frame);
         begin_pictures(frame);
-        for (frame.picture = 0; frame.picture < frame.sampling.pictures; ++frame.picture) {
+        bool drawn = true;
+        for (frame.picture = 0; drawn && frame.picture < frame.sampling.pictures; ++frame.picture) {
             frame.graph.clear();
             declare_picture(frame, view);
             // Without all of its programs a picture is not drawn: the report says why, or they are to come (warm_up()).
-            if (frame.shared.programs.failed() || frame.shared.programs.postponed()) break;
-            run(frame, view);
+            drawn = has_its_programs(frame);
+            if (drawn) run(frame, view);
         }
-        for (CharacterState* character : frame.characters) remember_surface(*character);
-        keep_for_next_frame(frame);
+        if (drawn) {
+            for (CharacterState* character : frame.characters) remember_surface(*character);
+            keep_for_next_frame(frame);
+        } else {
+            frame.own<LastFrame>().known = false;
+        }
     }
     frame.report.programs_compiled = static_cast<std::uint32_t>(frame.shared.programs.compiled() - compiled_before);
     if (std::optional<Error> failure = frame.shared.programs.take_failure()) frame.report.failure = failure->message;
@@ -261,8 +270,10 @@ void hand_over_view(FrameState& frame, SceneState& scene, const ViewFrame& view)
         declare_stage(frame, Stage::surface);
         declare_stage(frame, Stage::light);
         declare_host_shading(frame);
-        run(frame, view);
-        for (CharacterState* character : frame.characters) remember_surface(*character);
+        if (has_its_programs(frame)) {
+            run(frame, view);
+            for (CharacterState* character : frame.characters) remember_surface(*character);
+        }
     }
     if (std::optional<Error> failure = frame.shared.programs.take_failure()) frame.report.failure = failure->message;
 }

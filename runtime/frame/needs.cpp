@@ -28,11 +28,25 @@ EffectReport find_character_needs(FrameState& frame, const Effect& effect, std::
     return all;
 }
 
-/// Takes an effect out of a character's shading, and what builds on it.
-void leave_out(const ShadingLayout& layout, const Effect& effect, Shading& shading) {
+std::size_t index_of(const Effect& effect) {
+    const std::span<const Effect* const> registry = effects();
+    return static_cast<std::size_t>(std::ranges::find(registry, &effect) - registry.begin());
+}
+
+constexpr std::string_view no_unit_left = "all texture units of the device are taken";
+
+/// Takes an effect out of a character's shading, and what builds on it, with a bound that says nothing is promised.
+void leave_out(FrameState& frame, CharacterState& character, const Effect& effect) {
+    const ShadingLayout& layout = shading_layout(frame.shared);
     for (std::size_t k = 0; k < layout.parts.size(); ++k) {
         const Effect* part = layout.parts[k].effect;
-        if (part == &effect || part->shading->builds_on == &effect) shading.parts &= ~(1U << k);
+        const bool goes = part == &effect || part->shading->builds_on == &effect;
+        if (!goes || (character.shading.parts >> k & 1U) == 0) continue;
+        character.shading.parts &= ~(1U << k);
+        character.effects_on[index_of(*part)] = 0;
+        std::vector<EffectReport>& reports = character.report->effects;
+        std::erase_if(reports, [part](const EffectReport& report) { return report.effect == part->name; });
+        reports.push_back({part->name, false, no_unit_left, Omission::bounded, 1, "of the picture's whole range"});
     }
 }
 
@@ -43,17 +57,25 @@ void fit_textures(FrameState& frame, CharacterState& character) {
     for (std::size_t k = layout.parts.size(); k-- > 0;) {
         if (shading_units(frame.shared, character, character.shading) <= units) return;
         const Effect& effect = *layout.parts[k].effect;
-        if ((character.shading.parts >> k & 1U) == 0 || effect.shading->textures == 0) continue;
-        leave_out(layout, effect, character.shading);
-        std::vector<EffectReport>& reports = character.report->effects;
-        std::erase_if(reports, [&effect](const EffectReport& report) { return report.effect == effect.name; });
-        reports.push_back({effect.name, false, "all texture units of the device are taken", Omission::exact, 0, {}});
+        if ((character.shading.parts >> k & 1U) != 0 && effect.shading->textures != 0)
+            leave_out(frame, character, effect);
     }
 }
 
-std::size_t index_of(const Effect& effect) {
-    const std::span<const Effect* const> registry = effects();
-    return static_cast<std::size_t>(std::ranges::find(registry, &effect) - registry.begin());
+/// An effect that no character is left with is off for the view too.
+void report_left_out(FrameState& frame) {
+    const auto left_out = [](const CharacterState* character, std::string_view name) {
+        return std::ranges::any_of(character->report->effects, [name](const EffectReport& report) {
+            return report.effect == name && report.reason == no_unit_left;
+        });
+    };
+    for (EffectReport& report : frame.report.effects) {
+        if (!report.on || frame.characters.empty()) continue;
+        const bool none_left = std::ranges::all_of(
+            frame.characters, [&](const CharacterState* character) { return left_out(character, report.effect); });
+        if (none_left)
+            report = {report.effect, false, no_unit_left, Omission::bounded, 1, "of the picture's whole range"};
+    }
 }
 
 }  // namespace
@@ -81,6 +103,7 @@ void find_shading(FrameState& frame) {
         character->shading = shading_of(frame, *character);
         fit_textures(frame, *character);
     }
+    report_left_out(frame);
 }
 
 bool CharacterState::on(const Effect& effect) const {

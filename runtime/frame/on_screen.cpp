@@ -8,7 +8,8 @@ namespace blush {
 
 bool may_be_on_screen(const FrameState& frame, const CharacterState& character) {
     const ViewFrame& view = *frame.view;
-    if (character.facts.has_joints || view.width == 0 || view.height == 0) return true;  // joints move it anywhere
+    // Joints and pins move it anywhere.
+    if (character.facts.has_joints || character.facts.pinned || view.width == 0 || view.height == 0) return true;
     const Extents& extents = character.facts_of_face.extents;
     float reach = 0;
     for (const ActiveTarget& entry : character.active()) {

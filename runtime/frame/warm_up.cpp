@@ -116,7 +116,7 @@ void draw(WarmUp& own, SceneState& scene, CharacterState& subject, const ViewFra
             frame.lighting = &unlit;
         }
         draw_view(*own.frame, scene, frame);
-        end_scene_frame(scene, compares_frames(*own.frame, frame));
+        end_scene_frame(scene, !own.frame->shared.programs.postponed() && compares_frames(*own.frame, frame));
     }
 }
 
@@ -178,6 +178,7 @@ WarmUpProgress warm_up(FrameState& view, SceneState& scene, const ViewFrame& lik
     }
     if (own.next >= total && scene.characters.size() > 1) compile_combinations(own, all);
     const bool more = programs.postponed();
+    if (std::optional<Error> failed = programs.take_failure()) failure = failed->message;
     programs.unlimited();
     own.compiled += static_cast<std::uint32_t>(programs.compiled() - before);
     WarmUpProgress progress{.done = (own.next >= total && !more) || failure.has_value(),

@@ -82,6 +82,30 @@ TEST_F(AddedEffect, AShaderThatDoesNotCompileIsReportedAndDrawsNothing) {
     EXPECT_FALSE(character_.report().failure);
 }
 
+TEST_F(AddedEffect, AFrameThatWasNotDrawnIsNotRemembered) {
+    device_ = *Device::headless(false);
+    Face its = test::make_face({.targets = 4, .normal_deltas = true});
+    for (Material& material : its.materials) material.skin = true;
+    for (const char* mode : {"none", "smaa_t2x"}) {
+        character_ = make_character(device_, its);
+        offscreen_ = make_offscreen(96, 96);
+        ASSERT_TRUE(character_.set("antialiasing.mode", mode));
+        test::set_weights(character_, {1, 0, 0, 0});
+        drawn("0.5");
+        // New weights come with a frame that fails: its surface was never made.
+        test::set_weights(character_, {0, 0, 1, 1});
+        ASSERT_TRUE(character_.set("frost.text", "bad"));
+        ASSERT_TRUE(character_.draw(test::framed_view(character_, offscreen_)).failure);
+        ASSERT_TRUE(character_.set("frost.text", "good"));
+        const Image after = drawn("0.5");
+        Portrait fresh = make_character(device_, its);
+        ASSERT_TRUE(fresh.set("antialiasing.mode", mode));
+        ASSERT_TRUE(fresh.set("frost.amount", "0.5"));
+        test::set_weights(fresh, {0, 0, 1, 1});
+        EXPECT_EQ(after.bytes, test::draw(fresh, offscreen_).bytes) << mode;
+    }
+}
+
 TEST_F(AddedEffect, IsLeftOutWithAReasonWhereNoTextureUnitIsLeft) {
     // Of the effects with textures, shadows and the surface's reflection come after it and go first.
     const Image warm = drawn("0");
